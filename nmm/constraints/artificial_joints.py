@@ -1,4 +1,4 @@
-"""Artificial joints (Ke 1996): what holds the sub-blocks of a block together for good.
+"""Artificial joints (Ke 1996): permanent ties between the sub-blocks of a block.
 
 Springs, or Nitsche's terms. They act at points of the material, so that a uniform traction stays
 uniform whatever the degree of the functions; there is no state and nothing to iterate.
@@ -42,7 +42,7 @@ class ArtificialJoints(TiedInterfaces):
 
     @staticmethod
     def ties_of(model: Model, glue: PieceGlue, joint_rule: str, start: State) -> list[Imposition]:
-        """Find the joints, and return what holds them.
+        """Find the joints, and return their ties.
 
         Parameters
         ----------

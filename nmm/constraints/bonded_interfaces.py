@@ -69,7 +69,7 @@ class BondedInterfaces(TiedInterfaces):
         return made
 
     def follow(self, change: "Change") -> "BondedInterfaces":
-        """Return those of the new model; a block that is new is tied free of stress as it lies."""
+        """Return those of the new model; a new block is tied free of stress where it lies."""
         new, state, fresh = type(self).from_setup(change.setup), change.state, change.parentage
         known = [_Anchors.of(change.old, tie.interface) for tie in self.ties]
         for number, tie in enumerate(new.ties):
@@ -117,7 +117,7 @@ class BondedInterfaces(TiedInterfaces):
 
 @dataclass(frozen=True)
 class _Anchors:
-    """Jumps at which points of an interface are free of stress, whichever of its sides is first.
+    """Stress-free jumps at points of an interface, independent of which side is the first.
 
     Attributes
     ----------
@@ -176,7 +176,7 @@ def _least_cut(model: Model, ties: Sequence[Imposition]) -> float:
 
 
 def glue_edges(model: Model, joints: Joints, part: "Glue", size: float | None) -> list[Imposition]:
-    """Return what holds edges together; ``size`` is that of a mesh's cells, None for blocks (m)."""
+    """Return the ties of edges; ``size`` is that of a mesh's cells, None for blocks (m)."""
     degree, auto = model.manifold.degree, part.method == "auto"
     asked = method_for(model, part.method, "spring")
     kind = "nitsche" if asked == "auto" else asked
@@ -197,7 +197,7 @@ def glue_edges(model: Model, joints: Joints, part: "Glue", size: float | None) -
 
 
 def _under_stress(setup: Setup, tie: Springs) -> Springs:
-    """Return springs that carry the stress of the ground as they are drawn: the mean traction."""
+    """Return springs that carry the initial stress of the ground: its mean traction."""
     ground, interface = StressAtStart.declared(setup), tie.interface
     a, b = (ground.at(setup.model, side.elements, side.position) for side in interface.sides)
     assert interface.first.normal is not None

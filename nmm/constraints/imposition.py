@@ -1,4 +1,4 @@
-"""What holds an interface: one small base, and a registry of the methods.
+"""How interface conditions are imposed: one small base class, and a registry of methods.
 
 The same methods serve supports, glue and the joints of sub-blocks; one of a user's own does so too,
 as ``module:Name``.
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Imposition(ABC):
-    """An interface and what holds it.
+    """An interface and the method that imposes its conditions.
 
     Attributes
     ----------
@@ -63,7 +63,7 @@ class Imposition(ABC):
 
     @abstractmethod
     def matrix(self, state: State) -> Triplets:
-        """Symmetric matrix (n, n) that joins the stiffness."""
+        """Symmetric matrix (n, n), added to the stiffness."""
 
     @abstractmethod
     def force(self, state: State, jump: Floats) -> Floats:
@@ -91,7 +91,7 @@ class Imposition(ABC):
 
     @property
     def free(self) -> Bools:
-        """(m,) points where it cannot hold anything."""
+        """(m,) points at which it can impose nothing."""
         return np.zeros(len(self.interface), dtype=bool)
 
     @property
@@ -101,17 +101,17 @@ class Imposition(ABC):
 
     @property
     def oriented(self) -> bool:
-        """Whether it holds two bodies by directions of one of them."""
+        """Whether its directions are those of one of two bodies."""
         return False
 
     @property
     def tied_unknowns(self) -> Ints:
-        """Unknowns tied to those of neighbours besides."""
+        """Unknowns that it ties to those of neighbouring elements."""
         return np.empty(0, dtype=np.int64)
 
     @property
     def shared(self) -> "MultiplierValues | None":
-        """Multipliers, shared by what has the same object; None without any."""
+        """Multipliers; impositions with the same object share them. None without any."""
         return None
 
     def conditions(self, state: State, jump: Floats) -> tuple[csr_array, Floats]:
@@ -133,7 +133,7 @@ IMPOSITIONS: Registry[type[Imposition]] = Registry(
 
 @dataclass(frozen=True)
 class Method:
-    """How interfaces are held.
+    """The method by which interface conditions are imposed.
 
     Attributes
     ----------
@@ -163,7 +163,7 @@ class Method:
         return max(2 * (self.degree + 2), 2 * model.manifold.degree)
 
     def impose(self, model: Model, interfaces: Sequence[Interface]) -> list[Imposition]:
-        """Hold interfaces; what they may share they share."""
+        """Impose the method on interfaces, which share multipliers where they can."""
         kind = IMPOSITIONS.load(self.kind)
         return kind.of_all(model, interfaces, self)
 
@@ -180,7 +180,7 @@ class Method:
         return self.impose(model, [interface])[0]
 
     def at_points(self) -> "Method":
-        """Return what holds points that are no edge: springs, which need no traction."""
+        """Return the imposition at points that are no edge: springs, which need no traction."""
         return replace(self, kind="penalty")
 
 

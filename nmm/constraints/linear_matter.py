@@ -1,4 +1,4 @@
-"""Nitsche's terms take the traction of a linear material: others are held without them.
+"""Nitsche's method needs the traction of a linear material; others are held by springs.
 
 Multipliers hold an edge in means over cells, whose tractions cannot follow stresses that jump: the
 plastic limit of a beam held so on two cells of its depth is 1.19 in place of 1.5 times the first
@@ -10,12 +10,12 @@ from nmm.errors import FormulationError
 
 
 def method_for(model: Model, asked: str, springs: str) -> str:
-    """Return ``springs`` for "auto" where some material is not linear, else what is ``asked``."""
+    """Return ``springs`` for "auto" where a material is not linear, else what was ``asked``."""
     return springs if asked == "auto" and model.may_bend else asked
 
 
 def check_linear(model: Model, place: str, instead: str) -> None:
-    """Refuse Nitsche's terms beside a material that is not linear.
+    """Refuse Nitsche's method on a material that is not linear.
 
     Raises
     ------

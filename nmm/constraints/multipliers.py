@@ -1,4 +1,4 @@
-"""Lagrange multipliers: no jump in the mean with any traction of the multiplier space."""
+"""Lagrange multipliers: jumps vanish when weighted by any traction of the multiplier space."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -23,7 +23,7 @@ MANY = 3000
 
 @dataclass
 class MultiplierValues:
-    """Multipliers that interfaces share, as they were found last.
+    """The last values of multipliers, which interfaces may share.
 
     Attributes
     ----------
@@ -80,7 +80,7 @@ class Multipliers(Imposition):
 
     @classmethod
     def _sharing(cls, model: Model, parts: Sequence[Interface], method: Method) -> list[Self]:
-        """Hold interfaces by multipliers in common."""
+        """Impose conditions on interfaces by shared multipliers."""
         # A block is one cell: each of its joints has multipliers of its own.
         size = sum(one.first.weight.sum() for one in parts) if method.size is None else method.size
         pieces = join([pieces_of(model, one) for one in parts])
@@ -95,7 +95,7 @@ class Multipliers(Imposition):
         return found
 
     def _independent(self, model: Model) -> Self:
-        """Return what holds two bodies without the conditions that others imply."""
+        """Return the tie of two bodies without the conditions that others imply."""
         rows, _ = self.conditions(initial_state(model.manifold), np.zeros((len(self.interface), 2)))
         kept = independent(rows, _resistance(model))
         values = MultiplierValues(len(kept))
@@ -107,12 +107,12 @@ class Multipliers(Imposition):
         return self.found
 
     def matrix(self, state: State) -> Triplets:
-        """Nothing joins the stiffness."""
+        """None: multipliers add no stiffness."""
         none = np.zeros(0, dtype=np.int64)
         return none, none, np.zeros(0)
 
     def force(self, state: State, jump: Floats) -> Floats:
-        """Nothing pulls: the multipliers are unknowns of the step."""
+        """None: the multipliers are unknowns of the step."""
         return np.zeros(len(state.deformation))
 
     def point_forces(self, state: State, jump: Floats) -> Floats:

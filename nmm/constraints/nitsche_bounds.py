@@ -1,4 +1,4 @@
-"""How large a support's penalty must be: the largest ratio of traction to energy on an edge."""
+"""Least penalty of a support: the largest ratio of traction to energy on an edge."""
 
 from typing import Any
 

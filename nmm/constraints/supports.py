@@ -202,12 +202,12 @@ class Supports(TiedInterfaces):
 
 
 def _anchored(tie: Imposition, state: State) -> Imposition:
-    """Return a support whose ground takes hold of the points where they are."""
+    """Return a support whose ground is tied to the points where they are now."""
     return replace(tie, interface=replace(tie.interface, anchor=tie.interface.motion(state)))
 
 
 def _lets_turn(model: Model, interfaces: Sequence[Interface]) -> bool:
-    """Whether a body may turn though points of it are held.
+    """Whether a body can rotate although points of it are held.
 
     It may not where points of different y are held along x, or of different x along y.
     """

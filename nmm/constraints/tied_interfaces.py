@@ -1,4 +1,4 @@
-"""The effect of interfaces that are tied for good, whatever holds them.
+"""The effect of permanently tied interfaces, whatever the method.
 
 Forces are read from the whole jump as it stands, so that nothing drifts over steps. Where bodies
 turn, a point that a linear step holds has moved by half the angle squared times its arm when the
@@ -27,7 +27,7 @@ LastMultipliers = tuple[tuple[Floats | None, Floats | None], ...]
 
 
 class TiedInterfaces(Effect):
-    """Interfaces with what holds them.
+    """Interfaces with the methods that tie them.
 
     Parameters
     ----------
@@ -241,12 +241,12 @@ class TiedInterfaces(Effect):
         return jumps
 
     def _alike(self, one: Instant, other: Instant) -> bool:
-        """Whether the ground is at one instant where it is at another."""
+        """Whether the ground has the same place at two instants."""
         same = one.load_factor == other.load_factor
         return same and (self._still or one.time == other.time)
 
     def _moved(self, state: State) -> list[Floats]:
-        """How far the sides have moved apart."""
+        """Relative displacement of the sides."""
         return [tie.interface.motion(state) for tie in self.ties]
 
 

@@ -1,4 +1,4 @@
-"""Ties of bodies that turn within a step: where their forces act, and in which axes.
+"""Ties of bodies that rotate within a step: where their forces act, and in which axes.
 
 A force that acts on bodies in the axes of the start of a step has the arms of the start. Half way
 it keeps the angular momentum of two bodies that are tied.
@@ -49,7 +49,7 @@ def turned_axes(model: Model, before: State, at: State) -> csr_array:
 
 
 def rounded(tie: Imposition, state: State) -> Floats:
-    """Forces (m, 2) in N that the rounding of places (m) makes of a tie's points."""
+    """Forces (m, 2) in N at the points of a tie that come from rounded coordinates (m)."""
     interface = tie.interface
     far = max(float(np.abs(side.points.arm).max(initial=0.0)) for side in interface.sides)
     far = max(far, float(np.abs(interface.motion(state)).max(initial=0.0)))

@@ -86,7 +86,7 @@ def lift(model: Model, sides: Sequence[tuple[Ints, Floats, Floats]]) -> Lift | N
     """Return the pressures at points of edges; None where the material has none.
 
     Both sides are one: a patch may have edges of which it is the first side, and others of which
-    it is the second, and which is which hangs on the order of bodies.
+    it is the second, and which is which depends on the order of bodies.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What is solved: a model and the effects on it, one version after the other."""
+"""The discretisation that is solved: a model and the effects on it, in versions."""
 
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Protocol, Self

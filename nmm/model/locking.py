@@ -22,7 +22,7 @@ SHORT = {
     2: (2.5, 4.2, 7.6, 12.0, 28.0, 38.0),
     3: (1.1, 1.9, 2.6, 3.1, 4.7, 5.1),
 }
-# Pressures that are further off are told (percent), from this Poisson ratio on.
+# Larger errors of pressures (percent) are reported, from this Poisson ratio on.
 TOLD, FROM = 5.0, 0.45
 # Pressures on patches for each unknown from which on they oscillate: one for two on covers of
 # degree 0, one for six on those of degree 1.

@@ -1,4 +1,4 @@
-"""Scenes far from the origin: worked on around an origin of their own, handed over where they lie.
+"""Scenes far from the origin: solved about a local origin, written in their own coordinates.
 
 A coordinate of 1e6 m is rounded to 1e-10 m. Springs of 1e13 N/m read that as a thousand newtons, so
 blocks, supports and loads are shifted once at the door, by a sum that rounds nothing, and what is

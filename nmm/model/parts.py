@@ -1,7 +1,7 @@
 """The exchangeable parts that scene and formulation name, made once before anything is built.
 
-So a wrong name or option is told with its line in the file, together with all others. A part that
-is not named is a built-in one and is not imported for this.
+So a wrong name or option is reported with its line in the file, together with all others. A part
+that is not named is a built-in one and is not imported for this.
 """
 
 from collections.abc import Callable, Iterator
@@ -201,7 +201,7 @@ def _changed(part: Any) -> set[str]:
 
 
 def _unread(part: Any, key: str, naming: str) -> FormulationError:
-    """Return the refusal of a key that the part which ``naming`` names has no use of."""
+    """Return the refusal of a key that the part named by ``naming`` does not use."""
     name = getattr(part, naming)
     expected, remedy = f'no such key, as {naming} is "{name}"', f"remove {key}, or name another"
     return FormulationError(Fault(key, f"{getattr(part, key):g}", expected, f"{remedy} {naming}"))

@@ -1,4 +1,4 @@
-"""What a cover needs of the solver, and what is said about it."""
+"""Solver settings that a cover and a run need, and warnings about the model."""
 
 from dataclasses import replace
 from typing import TYPE_CHECKING

@@ -1,4 +1,4 @@
-"""What is known of a load that is left of forces that cancel."""
+"""The part of a load that is significant where it is a sum of forces that cancel."""
 
 from collections.abc import Sequence
 

@@ -1,4 +1,4 @@
-"""What a linear solver is: a decomposition of scaled matrices, with settings; names of solvers."""
+"""Base of linear solvers: a decomposition of scaled matrices, with settings; their names."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping

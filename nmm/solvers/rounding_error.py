@@ -1,4 +1,4 @@
-"""What rounding makes of a solution, by solving for it."""
+"""Rounding error of a solution, estimated by a further solve."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from nmm.solvers.unchecked import magnitudes
 SAMPLES = 2
 """Signs of roundings that are drawn; the worst counts."""
 DIGITS = 0.1
-"""Residual to which a change is solved: its size is all that is asked for."""
+"""Residual to which a change is solved, of which only the size is needed."""
 
 
 def rounding_changes(factor: Factor, solution: Floats, load: Floats) -> list[Floats]:

@@ -22,7 +22,7 @@ def bordered(matrix: csc_array, rows: csr_array) -> csc_array:
 
 
 def saddle_scale(matrix: csc_array) -> Floats:
-    """(n,) factors: unknowns by their stiffness, multipliers by what holds their conditions.
+    """(n,) factors: unknowns by their stiffness, multipliers by that of their conditions.
 
     With ``D`` the positive part of the diagonal a condition ``c`` is scaled by the root of
     ``c D^-1 c^T``, so that its pivot after elimination is about one. What has neither a stiffness
@@ -47,7 +47,7 @@ def saddle_scale(matrix: csc_array) -> Floats:
 
 
 def equilibrated_scale(matrix: csc_array) -> Floats:
-    """(n,) factors by the largest entries, or by what holds conditions where diagonals vanish."""
+    """(n,) factors by the largest entries, or by the stiffness of conditions on zero diagonals."""
     return ruiz_scale(matrix) if matrix.diagonal().all() else saddle_scale(matrix)
 
 

@@ -50,7 +50,7 @@ class Posed:
     discretisation, stages, monitors
         Model and effects at the start; stages of the scene; points whose displacement it asks for.
     integrator, solver, lay
-        Parts that the formulation names; `lay` lays blocks anew each step, where that is asked for.
+        Parts that the formulation names; `lay` lays blocks anew each step, where that is requested.
     covers, effects
         Wall-clock seconds that model and effects took.
     """
@@ -99,7 +99,7 @@ def _posed(scene: "Scene", formulation: Formulation) -> Posed:
     discretisation = Discretisation.of(setup)
     plan = discretisation.plan
     for later in stages[1:]:
-        with of_stage(later.stage.name):  # its faults are told before anything is solved
+        with of_stage(later.stage.name):  # its faults are reported before anything is solved
             compile_plan(later.setup)
     _refuse_events(scene, plan)
     return Posed(
@@ -140,7 +140,7 @@ def _staged(scene: "Scene", stage: Stage, regions: "Regions", origin: Floats) ->
 
 
 def _lay(formulation: Formulation, model: Model, plan: Plan) -> Lay | None:
-    """Return what lays blocks anew each step when the classical update is asked for."""
+    """Return what lays blocks anew each step when the classical update is requested."""
     if formulation.rotation.update != "linear":
         return None
     check_remap(plan)

@@ -136,12 +136,12 @@ class ConsistentBonds:
 
 
 def consistent(model: Model, asked: str) -> bool:
-    """Say whether whole bonds are held by consistent terms, as asked for or where they can be.
+    """Return whether consistent terms hold whole bonds: where requested, or where possible.
 
     Raises
     ------
     FormulationError
-        Where they are asked for beside a material whose traction they do not know.
+        Where they are requested for a material whose traction they do not know.
     """
     known = model.matter is None and not model.projected
     if asked == "nitsche" and not known:

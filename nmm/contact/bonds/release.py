@@ -1,4 +1,4 @@
-"""From consistent terms to the bond's own law, at the instant and place where it is called for.
+"""From consistent terms to the bond's own law, when and where the bond is overloaded.
 
 The law's spring takes over the traction that the terms carried there. Where the bond stands open it
 is as soft as that asks for, so that what is open counts; elsewhere the distance at which it is free
@@ -35,9 +35,9 @@ def released(
     springs: Springs,
     limits: Limits,
 ) -> tuple[ContactPoints, float]:
-    """Return the contacts with bonds that their laws hold, or have lost, from now on.
+    """Return the contacts with bonds handed over to their laws, or broken, from now on.
 
-    And by how much energy (J) the terms held more, as the step began, than the springs that go on.
+    And the energy (J) of the terms at the start of the step less that of the springs that follow.
 
     Parameters
     ----------

@@ -62,7 +62,7 @@ class Direction:
 
     @property
     def push(self) -> Floats:
-        """What the forces at the start are on the unknowns (n,), with the sign changed."""
+        """Forces on the unknowns (n,) at the start, with the sign changed."""
         force = self.area * self.stress + self.held @ self.gap
         return np.asarray(self.gaps.T @ force + self.stresses.T @ (self.area * self.gap))
 
@@ -88,7 +88,7 @@ class TiedBonds(Transform):
     normal, tangent
         The two directions.
     weight
-        Share of the end of the step in what forces hang on.
+        Weight of the end of the step in the forces.
     """
 
     index: Ints
@@ -139,7 +139,7 @@ class TiedBonds(Transform):
 
     @cached_property
     def push(self) -> Floats:
-        """What the forces at the start are on the unknowns (n,), with the sign changed."""
+        """Forces on the unknowns (n,) at the start, with the sign changed."""
         return np.asarray(sum(one.push for one in (self.normal, self.tangent)))
 
     def forces(self, increment: Floats) -> tuple[Floats, Floats]:

@@ -86,7 +86,7 @@ class Candidates:
     def _anew(
         self, record: ContactRecord, state: State, found: Contacts, in_time: bool
     ) -> tuple[Contacts, ContactPoints]:
-        """Return those of the found contacts that may be, and their points."""
+        """Return the admissible ones of the found contacts, and their points."""
         surface = self.partners.surface(state)
         found, interface = self.partners.meeting(
             surface, found, record.book, first=record.found is None
@@ -106,9 +106,9 @@ class Candidates:
         return found, self._followed(record, new, before, in_time)
 
     def _lasting(self, points: ContactPoints, in_time: bool) -> Bools:
-        """Which springs (m,) are to stay as they are while they push: those in time hold energy.
+        """Which springs (m,) keep their stiffness while they push: in time that conserves energy.
 
-        Stretches of faces that have a stiffness by area keep to their area.
+        Segments of faces with a stiffness by area follow their area.
         """
         by_area = self._laws.has_stiffness[points.interface] & (points.length > 0)
         return np.asarray(in_time & ~by_area)
@@ -156,7 +156,7 @@ class Candidates:
     ) -> tuple[ContactRecord, ContactPoints]:
         """Return the record after an accepted step, and its contacts with joints given up before.
 
-        It was ``sought`` with: what search found for it, and pairs that crossed in it at first.
+        ``sought`` is what search found for the step, and the pairs that crossed in it at first.
         """
         found, crossed = sought
         bonded = self._laws.bonded[solved.contacts.interface]
@@ -175,7 +175,7 @@ class Candidates:
     def _followed(
         self, record: ContactRecord, new: ContactPoints, before: Predecessors, in_time: bool
     ) -> ContactPoints:
-        """Return points with what the ones ``before`` them left, and gaps as they count."""
+        """Return points with the state of their predecessors, and gaps from their references."""
         old, left = before.old, record.book.left
         stiffness, body = self._laws.normal_stiffness, self._geometry.model.manifold.boundary.body
         new = counted(remember(new, before), before, stiffness, body, left)

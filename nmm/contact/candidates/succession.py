@@ -1,4 +1,4 @@
-"""What contact knows of a new model: joints and contacts go on where the material does."""
+"""Contact on a changed model: joints and contacts continue where the material does."""
 
 from collections.abc import Callable
 from dataclasses import replace

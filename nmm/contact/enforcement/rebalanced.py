@@ -22,7 +22,7 @@ FLOOR = 1e-14
 """Share of the whole scene's forces that rounding leaves. More adds up over steps: 1e-11 of them is
 a thousandth of a block of 1e-8 of the weight, and made it 12 % too heavy in eighty steps."""
 FINER = 1e-3
-"""Part of its tolerance that the next solution of a step is asked for."""
+"""Part of its tolerance that the next solution of a step is requested."""
 
 
 def solve_rebalanced(

@@ -1,6 +1,6 @@
-"""A step along a path, at once or in parts that Newton's method can go.
+"""A step along a path, whole or in parts that Newton's method can solve.
 
-Contacts that stick and slide, open and close by turns can send Newton's method to and fro. From an
+Contacts that stick and slide, open and close in turn can make Newton's method cycle. From an
 iterate whose forces are out of balance by ``r`` there is a line of problems that want ``t r`` less
 than all of it, with the path's target as far on: at ``t = 0`` the iterate solves its problem, and
 each solution is a guess near that of a slightly larger ``t`` (Newton homotopy; Allgower and Georg

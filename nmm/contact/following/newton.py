@@ -16,7 +16,7 @@ from nmm.solvers.linear import LinearSolver
 
 # Iterations, and the out-of-balance force over the largest one at which they end.
 ITERATIONS, CLOSE = 20, 1e-11
-# Iterations go to and fro where so many of them leave more than this share of the least before.
+# Iterations cycle where so many of them leave more than this share of the least residual before.
 FRUITLESS, FRUIT = 6, 0.7
 # Halves of an iteration that are tried where the whole is worse in balance.
 SHORTER = 4
@@ -31,10 +31,10 @@ def newton(
     begin: PathStep,
     patient: bool = False,
 ) -> PathStep:
-    """Return the last of the iterates from one of them; its balance says whether it is a solution.
+    """Return the last iterate; its residual says whether it is a solution.
 
-    The ``patient`` go whole steps and on, whatever these leave out of balance: points that open one
-    after another bring nothing until the last one has.
+    ``patient`` iterations take whole steps even where the residual grows: points that open one
+    after another reduce it only when the last one has opened.
 
     Raises
     ------
@@ -66,7 +66,7 @@ def newton(
 
 
 def _to_and_fro(residuals: list[float]) -> bool:
-    """Whether the last iterations brought nothing."""
+    """Whether the last iterations made no progress."""
     # The first one leaves the guess, which may be in balance short of the target.
     last, before = residuals[-FRUITLESS:], residuals[1:-FRUITLESS]
     return bool(before) and min(last) > FRUIT * min(before)
@@ -75,7 +75,7 @@ def _to_and_fro(residuals: list[float]) -> bool:
 def _nearest(
     problem: PathProblem, path: PathEquation, step: PathStep, end: tuple[Floats, float]
 ) -> PathStep:
-    """Return the whole step of an iteration, or a part of it that is better in balance."""
+    """Return the whole step of an iteration, or a part of it with a smaller residual."""
     best, share = problem.at(path, *end), 1.0
     for _ in range(SHORTER):
         if best.out <= step.out or best.residual <= ROUNDED:

@@ -29,7 +29,7 @@ class PathStep:
     change
         Of the load factor.
     contacts
-        What contacts answer.
+        Response of the contacts.
     gap, slip
         (m,) at the end (m).
     rest
@@ -37,7 +37,7 @@ class PathStep:
     residual
         Its size over that of the largest force.
     short
-        What the path equation lacks, as a share of its target.
+        Residual of the path equation over its target.
     iterations
         Linear systems solved.
     """
@@ -76,11 +76,11 @@ class PathProblem:
     gap, slip
         (m,) at the start (m).
     law
-        What contacts answer.
+        Contact forces from gaps and slips.
     scale
-        Force (N) beside which what is out of balance is small; that of contacts and load besides.
+        Force (N) that residuals are relative to, or those of contacts and load if they are larger.
     rounding
-        Force (N) that contacts answer to places that are rounded: less is in balance.
+        Contact force (N) due to rounded coordinates; a smaller residual counts as none.
     """
 
     matrix: csc_array

@@ -1,4 +1,4 @@
-"""Contact of a step along a path: posed, solved, and told as any other step's."""
+"""The contact problem of a step along a path: set up, solved, reported like any other step's."""
 
 from dataclasses import dataclass, replace
 from typing import Self

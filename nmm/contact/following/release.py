@@ -1,4 +1,4 @@
-"""Bonds that give way between two steps of a path."""
+"""Bonds that break or begin to soften between two steps of a path."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""Islands solved apart: each takes the passes it needs, and none where its start will do.
+"""Islands solved separately: each takes the passes it needs, none where its start balances.
 
 An island is left alone in a step where the unknowns that it starts from, a mix of its own last
 ones, balance its equations to the tolerance. These are the equations of the step with inertia,

@@ -1,4 +1,4 @@
-"""What the contact solution keeps from step to step: for speed, but for one choice."""
+"""Memory of the contact solution between steps: for speed, but for the width of barriers."""
 
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
@@ -22,7 +22,7 @@ STEP = ("force", "gap", "slip")
 PROBLEM = STEP + tuple(
     part.name for part in fields(StepProblem) if part.name not in (*STEP, "start")
 )
-"""All that the answer to a problem hangs on, what changes in every step first."""
+"""All that the answer to a problem depends on; what changes in every step comes first."""
 
 
 @dataclass

@@ -1,4 +1,4 @@
-"""What every iteration of a step is handed: the linear solver, what is kept, and numbers."""
+"""Tools of the iterations of a step: linear solver, memory and options."""
 
 from dataclasses import dataclass, replace
 

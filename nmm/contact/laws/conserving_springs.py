@@ -1,4 +1,4 @@
-"""Springs whose mean force over a step does the work that they store, closing and opening too.
+"""Springs whose mean force over a step conserves energy, also while contacts close or open.
 
 A spring that pushes alone has the energy ``V = k min(g, 0)^2 / 2``. Through a step from ``g0`` to
 ``g1`` it pushes with ``N = (V(g1) - V(g0)) / (g1 - g0)`` (Simo and Tarnow 1992), that is
@@ -7,8 +7,8 @@ A spring that pushes alone has the energy ``V = k min(g, 0)^2 / 2``. Through a s
     k g1^2 / (2 (g1 - g0))       closing,
     -k g0^2 / (2 (g1 - g0))      opening.
 
-It grows with ``g1`` and has a slope everywhere, so that a problem of contact gets the line at a gap
-that is foreseen, and iterations that foresee better find the force (Newton's method).
+It grows with ``g1`` and is differentiable, so that a contact problem gets its tangent at a
+predicted gap. Repeated with the gap that was found this is Newton's method.
 """
 
 from dataclasses import dataclass, replace
@@ -25,14 +25,14 @@ LEAST = 1e-6
 
 @dataclass(frozen=True)
 class ConservingSprings(TimeWeighting):
-    """Springs of the mean of both ends, those that push alone by the line at a gap.
+    """Midpoint springs; those that only push are linearised at a predicted gap.
 
     Attributes
     ----------
     foreseen
-        (m,) gaps at the end of the step (m), from references as those of the problem.
+        (m,) predicted gaps at the end of the step (m), counted as those of the problem.
     lifted
-        (m,) by how much sliding will have lifted the faces there (m).
+        (m,) predicted lift of the faces by sliding (m).
     """
 
     foreseen: Floats
@@ -46,18 +46,18 @@ class ConservingSprings(TimeWeighting):
         return replace(found, normal_stiffness=slope)
 
     def missed(self, answer: StepAnswer, problem: StepProblem, damper: Floats | float) -> Floats:
-        """Force (m,) at the gap that was found less that of the line which found it (N)."""
+        """Error (m,) of the linearised force at the gap that was found (N)."""
         true = mean_force(problem.normal_stiffness, *self._stretches(problem, answer.gap))
         true = np.minimum(true + damper, 0.0)
         return np.where(self._acts, true - answer.normal_force, 0.0)
 
     @property
     def _acts(self) -> Bools:
-        """Which springs have the potential above: they push alone, on the mean of both ends."""
+        """Which springs have the potential above: they only push, and act at the midpoint."""
         return np.asarray(~self.pulls & (self.weight == 0.5))
 
     def _lines(self, problem: StepProblem) -> Bools:
-        """Which springs close or open from the start to what is foreseen."""
+        """Which springs close or open between the start and the predicted end."""
         start, end = self._stretches(problem, self.foreseen)
         return np.asarray(self._acts & ((start < 0) != (end < 0)))
 

@@ -1,4 +1,4 @@
-"""Which laws act at contact points: limits, springs, history, and bonds that break for good."""
+"""Interface laws at contact points: force limits, springs, history, and what breaks for good."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -48,7 +48,7 @@ class ContactLaws:
     consistent: bool = False
 
     def initial(self, interface: Ints, bonded: Bools) -> History:
-        """Return the history (m,) of contacts that a bond holds, or none."""
+        """Return the initial history (m,) of contacts with or without a bond."""
         found: dict[str, Any] = {}
         for number, law in enumerate(self.laws):
             for name, column in law.initial(bonded).items():
@@ -57,7 +57,7 @@ class ContactLaws:
         return found | ({TIED: np.zeros(len(bonded))} if self.consistent else {})
 
     def response(self, contacts: ContactPoints, stiffness: Floats) -> InterfaceResponse:
-        """Return limits (N), springs and lift of contacts while their history stands.
+        """Return limits (N), springs and lift of contacts under their present history.
 
         ``stiffness`` (m,) is that of the whole bonds (N/m).
         """
@@ -67,7 +67,7 @@ class ContactLaws:
 
     @of_pairs
     def _lasting_response(self, contacts: ContactPoints) -> InterfaceResponse:
-        """Return the response of laws that remember nothing but their bonds."""
+        """Return the response of laws without internal variables besides their bonds."""
         return self._response_of(contacts, self.springs(contacts)[0])
 
     def _response_of(self, contacts: ContactPoints, stiffness: Floats) -> InterfaceResponse:
@@ -111,12 +111,12 @@ class ContactLaws:
         return after
 
     def refuse_soft(self, joints: ContactPoints) -> None:
-        """Refuse bonds whose springs are too soft for what their law remembers of them.
+        """Refuse bonds whose springs are too soft for the softening of their law.
 
         Raises
         ------
         SceneError
-            As `InterfaceLaw.evolved` does, which else would be in the middle of a run.
+            As `InterfaceLaw.evolved` would in the middle of a run.
         """
         if self.evolving and len(joints):
             still = np.zeros(len(joints))
@@ -124,11 +124,11 @@ class ContactLaws:
 
     @cached_property
     def evolving(self) -> dict[str, HistoryColumn]:
-        """Columns on which the response of laws hangs within a step."""
+        """Internal variables on which the response of laws depends within a step."""
         return {name: one for law in self.laws for name, one in law.columns.items()}
 
     def remembering(self, name: str) -> Bools:
-        """(n,) which laws have a column."""
+        """(n,) which laws have the internal variable of a name."""
         return np.array([name in law.columns for law in self.laws], dtype=bool)
 
     @of_pairs
@@ -161,11 +161,11 @@ class ContactLaws:
         return np.array([law.normal_stiffness is not None for law in self.laws], dtype=bool)
 
     def energy(self, contacts: ContactPoints, own_only: bool = False) -> float:
-        """Energy (J) that comes back when the contacts are unloaded, but for bonds that are tied.
+        """Recoverable energy (J) of the contacts, without that of tied bonds.
 
-        With ``own_only`` of those alone whose stiffness is a law's, or that have a damper: exact
-        contacts are no springs, what they overlap by, within a tolerance, stores nothing. Springs
-        that a damper holds back store what they are pressed in by though nothing touches.
+        With ``own_only`` only of contacts whose law has a stiffness or a damper: exact contacts are
+        no springs, and what they overlap by within the tolerance stores nothing. A spring that its
+        damper holds back keeps the energy of its compression while no force acts.
         """
         normal, shear, own = self.springs(contacts)
         damped = self.damped(contacts) & ~contacts.tied

@@ -45,7 +45,7 @@ class Dashpots(Transform):
         return np.asarray(stretch * self.stiffness / (problem.normal_stiffness + self.stiffness))
 
     def force(self, end: Floats) -> Floats:
-        """Force (m,) in N through a step to gaps (m,) at its end, of contacts that stay pressed."""
+        """Force (m,) in N over a step to gaps (m,) at its end, of dampers that stay closed."""
         return np.asarray(self.stiffness * (end - np.minimum(self.gap, 0.0)))
 
     def loss(self, spring: Floats, end: Floats, force: tuple[Floats, Floats]) -> float:
@@ -85,7 +85,7 @@ class RigidMass:
         return Dashpots(share * critical / step, contacts.gap)
 
     def meeting(self, contacts: ContactPoints, rows: csr_array) -> Floats:
-        """Mass (m,) in kg that two rigid bodies put against each other at each contact.
+        """Effective mass (m,) in kg of two rigid bodies that collide at each contact.
 
         ``1 / (G M^-1 G^T 1)`` with the normal rows ``G`` (m, n) in rigid motions: all contacts of
         one pair of bodies close together, as two do when faces meet.

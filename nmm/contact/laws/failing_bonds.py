@@ -1,4 +1,4 @@
-"""Bonds that cannot hold what an answer loads them by, and contacts without them."""
+"""Bonds that a solution overloads, and contacts after these bonds have broken."""
 
 from dataclasses import replace
 
@@ -17,11 +17,11 @@ TIE = 1e-6
 def breaking(
     laws: ContactLaws, contacts: ContactPoints, answer: StepAnswer, worst_only: bool
 ) -> Bools:
-    """Return which intact bonds (m,) cannot hold the forces of an answer.
+    """Return which intact bonds (m,) are overloaded by the forces of a solution.
 
-    With ``worst_only`` the most loaded ones alone, the others being judged again after the
-    forces have moved: the order of failure then does not depend on the load increment. Whole
-    bonds that begin to soften do so together, since no force jumps.
+    With ``worst_only`` only the most overloaded ones; the others are judged again after forces
+    have been redistributed, so that the order of failure does not depend on the load increment.
+    Whole bonds that begin to soften do so together, since no force jumps.
     """
     if not laws.hold(contacts):
         return np.zeros(len(contacts), dtype=bool)
@@ -74,7 +74,7 @@ def break_bonds(laws: ContactLaws, contacts: ContactPoints, broken: Bools) -> Co
 
 
 def strength(laws: ContactLaws, contacts: ContactPoints) -> Limits:
-    """Return the limits with the strength of intact bonds, which has none within a step."""
+    """Return the force limits with the strength of intact bonds, which steps judge apart."""
     limits = laws.response(contacts, laws.springs(contacts)[0]).limits
     tension, cohesion = limits.tension.copy(), limits.cohesion.copy()
     for law, index, _ in laws.by_law(contacts):

@@ -1,4 +1,4 @@
-"""How stiff the contacts are that search finds, where a law has a stiffness of its own."""
+"""Stiffness of the contacts that search finds, where their law prescribes one."""
 
 from dataclasses import replace
 
@@ -11,11 +11,11 @@ from nmm.contact.points.contact_points import ContactPoints
 
 
 def sized(laws: ContactLaws, contacts: ContactPoints, surface: Surface) -> ContactPoints:
-    """Return found contacts as stiff as their laws ask for.
+    """Return found contacts with the stiffness that their laws prescribe.
 
-    A stretch of a face has its length; a mere vertex stands for half the edge that faces the
-    other body, or half the other's if that is shorter, so that the two corners of a face that
-    lies on a longer one carry all of it.
+    A segment of a face counts with its length; a vertex counts with half the edge that faces the
+    other body, or half of the other's edge if that is shorter, so that the two corners of a face
+    that lies on a longer one carry all of it.
     """
     spring_factor = contacts.spring_factor.copy()
     for law, index in laws.stiff_laws(contacts):

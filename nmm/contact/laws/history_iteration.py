@@ -1,6 +1,6 @@
 """Fixed-point iteration on what interface laws remember, within a step.
 
-Every solution is that of a history that stands; what it should have been follows from it. Under
+Each solution uses a fixed history, and gives the history that it should have used. Under
 softening of slope ``h`` against a structure of stiffness ``S`` the changes shrink by ``h / S`` an
 iteration: they vanish as long as the structure is stable, and acceleration makes that quick.
 """
@@ -23,8 +23,8 @@ from nmm.solvers.anderson import FixedPoint
 MOST = 200
 """Solutions after which a step is given up."""
 UNCHANGED, BY_ROUNDING = 1e-9, 1e-7
-"""Change of a column, beside one or the largest length, that is as good as none; and where it
-shrinks no more, for functions depend on one another and rounding is large."""
+"""Relative change of an internal variable that counts as none; the second one where changes shrink
+no more, because functions depend on one another and rounding is large."""
 LASTING, SHRUNK = 50, 0.5
 """Changes shrink no more where so many solutions leave more than this share of the least before."""
 AT_LIMIT = 1e-6
@@ -43,7 +43,7 @@ class HistoryIteration:
     springs
         Normal and shear stiffness (m,) of whole bonds (N/m), and which are a law's own.
     before, response
-        What the laws answer by the history at the start, and by that of this solution.
+        Response of the laws under the history at the start, and under that of this solution.
     done
         Whether the last answer agrees with the history it was found with.
     """
@@ -82,7 +82,7 @@ class HistoryIteration:
         return AsymmetricSprings.of(index, share[index]) if len(index) else None
 
     def settled(self, answer: StepAnswer, sliding: Floats) -> Verdict | None:
-        """Take note of an answer; return a verdict when there have been too many."""
+        """Register a solution; return a verdict where the iteration has failed."""
         image = self._laws.evolved(self.start, answer.gap, sliding, self.springs[0])
         change, size = self._change(answer, image)
         self._changes.append(change)
@@ -103,12 +103,12 @@ class HistoryIteration:
 
     @property
     def _stays(self) -> bool:
-        """Whether the last solutions brought nothing."""
+        """Whether the last solutions made no progress."""
         last, before = self._changes[-LASTING:], self._changes[:-LASTING]
         return bool(before) and min(last) > SHRUNK * min(before)
 
     def _change(self, answer: StepAnswer, image: History) -> tuple[float, dict[str, float]]:
-        """Largest change of a column, each beside its size, and the sizes."""
+        """Largest relative change of an internal variable, and the sizes that it is relative to."""
         now, size, change = self.contacts.history, dict[str, float](), 0.0
         for name, column in self._laws.evolving.items():
             lengths = (answer.gap, image[name])
@@ -139,9 +139,9 @@ class HistoryIteration:
     def loss(self, answer: StepAnswer, sliding: Floats, static: bool) -> float:
         """Energy (J) that friction and softening took in the step.
 
-        The force of a step in time acts all through it. Loads of statics grow in theirs: what slid
-        from its start is rubbed by the mean of the limits at both ends, what slid later by that at
-        the end. What sliding does as it lifts faces against what presses them is not lost.
+        In time the force of a step acts all through it. In statics loads grow within a step: what
+        slides from its start does so against the mean of the limits at both ends, what slides later
+        against that at the end. The work of dilation against pressure is not lost.
         """
         rubbed = np.abs(answer.shear_force * sliding)
         if self._laws.evolving:
@@ -172,10 +172,10 @@ class HistoryIteration:
 
 
 def slid_under_load(problem: StepProblem, answer: StepAnswer, softening: Bools) -> Floats:
-    """How far (m,) contacts slid beyond the elastic stretch; zero where nothing presses or rubs.
+    """Inelastic slip (m,) of the contacts under load; zero where no force acts.
 
-    Of a ``softening`` (m,) bond all counts: one that is spent in the step slid while it held, and
-    would else be whole again for having slid no way.
+    Of a ``softening`` (m,) bond all slip counts: one that is exhausted in the step slid while it
+    held, and would otherwise be whole again.
     """
     loaded = softening | (answer.normal_force != 0) | (answer.shear_force != 0)
     return np.where(loaded, problem.slips(answer.increment) - answer.slip, 0.0)

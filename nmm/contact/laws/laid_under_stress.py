@@ -1,4 +1,4 @@
-"""Joints of ground that is under stress at the start: their springs carry it as they are drawn."""
+"""Joints in prestressed ground: their springs carry the initial stress in the drawn geometry."""
 
 from collections.abc import Callable
 from dataclasses import replace

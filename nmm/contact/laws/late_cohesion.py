@@ -27,7 +27,7 @@ ADHERES = 1e-9
 
 @dataclass(frozen=True)
 class LateCohesion(Transform):
-    """Cohesion stands for the whole step, by what is closed at its start.
+    """Cohesion of joints without bond, fixed for a step by whether they are closed at its start.
 
     Attributes
     ----------
@@ -42,7 +42,7 @@ class LateCohesion(Transform):
 
     @classmethod
     def of(cls, limits: Limits, contacts: ContactPoints) -> Self | None:
-        """Return that of a step with the laws' limits; None where nothing has a cohesion alone."""
+        """Return the transform of a step; None where no contact has cohesion without tension."""
         loose = (limits.tension == 0) & (limits.cohesion > 0)
         if not some(loose):
             return None
@@ -57,6 +57,6 @@ class LateCohesion(Transform):
         return with_parts(problem, limits=with_parts(limits, cohesion=cohesion, tension=tension))
 
     def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
-        """Return the answer with joints that have opened as open: no bond of theirs broke."""
+        """Return the answer with opened joints marked as open: they had no bond to break."""
         opened = self.loose & (answer.state == BROKEN) & (problem.state != BROKEN)
         return with_parts(answer, state=np.where(opened, int(OPEN), answer.state))

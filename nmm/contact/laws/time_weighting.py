@@ -1,4 +1,4 @@
-"""Springs of contacts as they act on the mean over one step.
+"""Springs of contacts stretched by a weighted mean of the start and the end of a step.
 
 A spring of stiffness ``k`` whose gap goes from ``g0`` to ``g1`` pushes through the whole step with
 
@@ -28,9 +28,9 @@ class TimeWeighting(Transform):
     Attributes
     ----------
     weight
-        (m,) share of the end of the step.
+        (m,) weight of the end of the step.
     lift
-        (m,) by how much sliding had lifted the faces at the start (m): no stretch of a spring.
+        (m,) lift of the faces by sliding at the start (m), which does not stretch the spring.
     pulls
         (m,) whose springs pull at the start, as intact bonds do; the others push alone.
     """
@@ -59,7 +59,7 @@ class TimeWeighting(Transform):
     def missed(
         self, answer: StepAnswer, problem: StepProblem, damper: Floats | float
     ) -> Floats | None:
-        """Return what lines in place of springs missed of their forces (m,): they are none.
+        """Return the error (m,) of linearised spring forces; None, for these springs are linear.
 
         ``damper`` (m,) is the force beside each spring (N).
         """
@@ -73,7 +73,7 @@ class TimeWeighting(Transform):
 
 @dataclass(frozen=True)
 class RaisedFaces(Transform):
-    """Faces that ride up on each other as they slide: gaps count from where they are lifted to.
+    """Dilation: faces ride up on each other as they slide, and gaps are counted from there.
 
     Attributes
     ----------
@@ -93,9 +93,8 @@ class RaisedFaces(Transform):
 
 
 def end_shares(weight: float, exact: bool, own: Bools, soft: Bools) -> Floats:
-    """Share (m,) of the end of the step in the stretch of each contact.
+    """Weight (m,) of the end of the step in the stretch of each contact.
 
-    What is not a spring, an exact contact, or is one that is being lost, a bond that softens, acts
-    as at the end of the step.
+    Exact contacts, which are no springs, and softening bonds act as at the end of the step.
     """
     return np.where(soft | (exact & ~own), 1.0, weight)

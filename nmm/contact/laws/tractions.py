@@ -1,4 +1,4 @@
-"""Forces of contact points as their laws answer a gap and a slip, with tangents and history."""
+"""Contact forces from gap and slip by the interface laws, with tangents and history."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -16,7 +16,7 @@ from nmm.interfaces.response import Traction
 
 @dataclass(frozen=True)
 class ContactForces:
-    """What contacts answer.
+    """Response of the contacts.
 
     Attributes
     ----------
@@ -25,7 +25,7 @@ class ContactForces:
     history
         Of the laws, afterwards.
     slopes
-        Gives `tangent` where it is asked for.
+        Computes `tangent` when it is first read.
     """
 
     force: Floats

@@ -1,4 +1,4 @@
-"""Dampers of contacts between bodies that give way in their place."""
+"""Contact dampers without effect, because bodies are softer than the contact springs."""
 
 from nmm.assembly.model import Model
 from nmm.contact.laws.contact_laws import ContactLaws
@@ -9,7 +9,7 @@ square blocks of one strain is 0.005 off there, of 4 to 1 0.02, and 0.05 and 0.1
 
 
 def yielding_bodies(laws: ContactLaws, model: Model) -> str:
-    """Say that bodies give way in place of damped contacts; empty where they do not.
+    """Warn that bodies deform in place of damped contacts; empty where they do not.
 
     A spring that is stiffer than what it pushes hardly moves, and its damper takes nothing: the
     energy of an impact becomes vibration of the bodies.
@@ -21,6 +21,6 @@ def yielding_bodies(laws: ContactLaws, model: Model) -> str:
     return (
         f"contacts with damping or restitution have springs of {stiff:.3g} E, stiffer than bodies "
         "that have strain: these give way in place of the damper, and square blocks part at 0.75 "
-        'of their speed whatever is asked for; take [cover] functions = "rigid", or [contact] '
+        'of their speed whatever is requested; take [cover] functions = "rigid", or [contact] '
         f"normal_penalty of {YIELDING:g} or less"
     )

@@ -1,4 +1,4 @@
-"""Contact over faces in the mean: one exact condition for each node that pressures can follow.
+"""Mortar contact: one exact constraint, averaged over faces, for each multiplier node.
 
 The points of overlaps integrate a pressure exactly (`nmm.contact.mortar.segments`), but are more
 than exact conditions may hold one by one. So the pressure is made of functions ``phi_j >= 0`` of
@@ -66,7 +66,7 @@ class FaceMeans(Transform):
         )
 
     def _wider(self, m: int) -> Self:
-        """Return the functions of a problem with further contacts at its end, which are alone."""
+        """Return the functions extended by further contacts, which are not averaged."""
         more = m - self.functions.shape[1]
         if not more:
             return self

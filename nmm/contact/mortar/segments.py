@@ -91,7 +91,7 @@ def faced(
         Pairs of edges, ``a * n + b`` with ``a < b``, whose overlaps something else carries.
     whole
         Whether faces count as far as they go on side by side, and not as far as the search found
-        corners: a mean over a part of a face must not hang on the reach of the search.
+        corners: a mean over a part of a face must not depend on the reach of the search.
     """
     n = max(len(surface), 1)
     pairs, own = _edge_pairs(surface, found)

@@ -61,7 +61,7 @@ class ContactPoints:
 
     @classmethod
     def unloaded(cls, **given: Any) -> "ContactPoints":
-        """Return points (m,) that no step has loaded: all but slip, forces and reference given."""
+        """Return points (m,) without slip, forces and reference; all else is given."""
         zeros = np.zeros(len(given["gap"]))
         return cls(slip=zeros, normal_force=zeros, shear_force=zeros, reference=zeros, **given)
 
@@ -87,9 +87,9 @@ class ContactPoints:
         return self.gap + self.reference
 
     def inherited(self, old: "ContactPoints", parent: Ints) -> dict[str, Any]:
-        """Return what laws remember (m,) by name: that of old points under the same interface.
+        """Return internal variables (m,) by name, taken from old points of the same interface.
 
-        ``parent`` (m,) are their numbers, -1 of points that continue none.
+        ``parent`` (m,) are the numbers of the old points; -1 of points that continue none.
         """
         if not len(old):
             return dict(self.history)

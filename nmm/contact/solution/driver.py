@@ -1,7 +1,7 @@
-"""Contact of one step: posed, solved, asked of the laws again, until nothing changes any more.
+"""The contact problem of one step: set up, solved, repeated until the interface laws agree.
 
-What is posed stands: limits, springs, lifted faces. Between two solutions laws say what changes
-(`nmm.contact.laws.history_iteration`) and which bonds break.
+Limits, springs and lifted faces are fixed during one solution. Between two solutions the laws
+update their history (`nmm.contact.laws.history_iteration`), and overloaded bonds break.
 """
 
 from collections.abc import Callable, Sequence
@@ -42,18 +42,19 @@ class ContactSolver:
     Attributes
     ----------
     memory
-        What is kept from solution to solution; see `Memory`.
+        Factors, patterns and starts that are kept between solutions; see `Memory`.
     untouched
-        Solves steps in which nothing is near anything.
+        Solves steps without contact points.
     last
-        The problem that the enforcement solved last, and its answer; None after such a step.
+        The problem that the enforcement solved last, and its answer; None after a step without
+        contact points.
 
     Parameters
     ----------
     posing
-        Poses them.
+        Sets up the problem of a step.
     enforcement
-        Solves them.
+        Solves the problem.
     unknown_body
         (n,) body of each unknown.
     """
@@ -88,7 +89,7 @@ class ContactSolver:
         self.last = None
 
     def alone(self, contacts: ContactPoints, request: StepRequest) -> ContactSolution | None:
-        """Solve a step in time in which nothing is near anything; None where something is."""
+        """Solve a step in time without contact points; return None where there are any."""
         if len(contacts) or request.step is None or request.null_space is not None:
             return None
         self.last = None
@@ -101,9 +102,9 @@ class ContactSolver:
         request: StepRequest,
         more: Callable[[ContactPoints], Sequence[Transform]] = lambda contacts: (),
     ) -> ContactSolution:
-        """Solve a step; bonds that cannot hold break and it is solved again.
+        """Solve a step; overloaded bonds break and the step is solved again.
 
-        ``more`` are transforms besides those of laws: whole bonds, means over faces, conditions.
+        ``more`` returns further transforms: whole bonds, averages over faces, constraints.
         """
         self.memory.moving = request.step is not None
         passes, loss, besides = 0, request.lost, more(contacts)
@@ -139,7 +140,7 @@ class ContactSolver:
         request: StepRequest,
         besides: Sequence[Transform],
     ) -> "_Agreed":
-        """Solve until laws remember what they were solved with, or there is no solution."""
+        """Repeat until the history agrees with the solution it was used for, or none is found."""
         iteration, passes = HistoryIteration(self._laws, contacts), 0
         start: Floats | None = None
         while True:
@@ -162,10 +163,10 @@ class ContactSolver:
         loaded: LoadedContacts,
         gone: tuple[Bools, Bools],
     ) -> tuple[ContactPoints, float]:
-        """Return contacts whose bonds are released or broken, and what `released` says of energy.
+        """Return contacts with overloaded bonds released or broken, and the energy of `released`.
 
-        They were ``loaded`` so; ``gone`` are the bonds that cannot hold, and those of them that
-        break at once.
+        ``loaded`` has the forces on them; ``gone`` marks the overloaded bonds, and the brittle ones
+        among them.
         """
         (broken, brittle), stored = gone, 0.0
         freed = broken & contacts.tied
@@ -211,7 +212,7 @@ class ContactSolver:
         self, transforms: list[Transform], solver: LinearSolver, problem: StepProblem
     ) -> StepAnswer:
         """Return the answer to a problem after all transforms."""
-        # A step that looks further and finds no other contacts asks the same again.
+        # A search with a larger reach may find the same contacts: the problem is the same then.
         answer = self.memory.known(problem)
         if answer is None:
             started = self.memory.started(problem)
@@ -225,7 +226,7 @@ class ContactSolver:
 
 @dataclass(frozen=True)
 class _Agreed:
-    """A solution that laws agree with, the problem it solves, and what it slid (m,) under load."""
+    """A solution with which the laws agree, its problem, and the slip (m,) under load."""
 
     iteration: HistoryIteration
     posed: PosedStep
@@ -236,7 +237,7 @@ class _Agreed:
     def told(
         self, found: ContactSolution, start: ContactPoints, rows: ContactRows, static: bool
     ) -> ContactSolution:
-        """Return what was found as an accepted step from ``start``, with what friction took."""
+        """Return the solution as an accepted step from ``start``, with the loss to friction."""
         answer, sliding = self.answer, self.sliding
         rubbed = self.iteration.loss(answer, sliding, static) + self.posed.loss(start, answer)
         missed = self.posed.missed(answer)
@@ -247,9 +248,9 @@ class _Agreed:
 def _lost(
     problem: StepProblem, loaded: LoadedContacts, broken: Bools, contacts: ContactPoints
 ) -> float:
-    """Energy (J) that bonds lose as they break: of pull and shear, in springs or in terms.
+    """Energy (J) of tension and shear that breaking bonds lose, in springs or consistent terms.
 
-    What presses a joint in stays in its spring.
+    The energy of compression stays in the spring of the joint.
     """
     stiffness = problem.normal_stiffness, problem.shear_stiffness
     springs = stiffness[0] * np.maximum(loaded.gap, 0.0) ** 2 + stiffness[1] * loaded.slip**2

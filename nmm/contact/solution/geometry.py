@@ -35,7 +35,7 @@ class ContactGeometry:
     bends
         Whether faces bend between their ends: contacts then act at points of the material.
     trace_space
-        Where exact conditions on faces are held in the mean, None where none are.
+        Multiplier space of exact constraints on faces; None where contact is at points.
     """
 
     def __init__(
@@ -90,7 +90,7 @@ class ContactGeometry:
         return JointFaces(surface, self.sides.length, apart)
 
     def measured(self, points: ContactPoints, state: State) -> ContactPoints:
-        """Return points that the search found with gaps and normals of faces as they bend."""
+        """Return the found points with gaps and normals measured on the bent faces."""
         if not self.bends or not len(points):
             return points
         normal = bent_normals(self.sides, points, state)
@@ -107,7 +107,7 @@ class ContactGeometry:
         return np.asarray(contract("mi,mi->m", apart_on(surface, points), normal))
 
     def face_means(self, contacts: ContactPoints, surface: Surface) -> FaceMeans | None:
-        """Return how exact conditions on faces of meshes are held in the mean; None elsewhere."""
+        """Return the averages over faces in which exact constraints hold; None without them."""
         return (
             None if self.trace_space is None else FaceMeans.of(contacts, surface, self.trace_space)
         )

@@ -1,4 +1,4 @@
-"""Bonds that soften from consistent terms, without an event: one form for whole, soft and broken.
+"""Softening bonds in a mixed form, the same for whole, softening and broken bonds.
 
 Let ``t`` be the average traction and ``k`` the penalty on a face. The form of Lorentz (2008) has
 the crack's own width ``w`` beside the jump ``u`` of the displacements,
@@ -13,7 +13,7 @@ stretched by ``g = u + t / k``. So with ``Phi`` the energy of both
 the law and its spring act on ``g`` in place of ``u``, and the rest is linear. A whole bond has
 Nitsche's terms; one that softens does so where the traction meets the criterion, without a jump and
 in the midst of a step; a broken one that is pressed has Nitsche's terms of contact. The penalty is
-no stiffness: nothing of what is found hangs on it but for the error of the cover.
+no stiffness: results depend on it only within the error of the discretisation.
 """
 
 from collections.abc import Sequence
@@ -36,7 +36,7 @@ from nmm.contact.solution.request import StepRequest
 
 @dataclass(frozen=True)
 class AverageStress:
-    """Average stress in one direction, as springs (k,) feel it, at the start of a step.
+    """Average traction on springs (k,) in one direction at the start of a step.
 
     Attributes
     ----------
@@ -53,7 +53,7 @@ class AverageStress:
     rows: csr_array
 
     def stretch(self, increment: Floats | None = None) -> Floats:
-        """Return by how much (k,) springs are longer than the jump, after an increment (m)."""
+        """Return the stretch (k,) of springs beyond the jump after an increment (m)."""
         more = 0.0 if increment is None else self.rows @ increment
         return np.asarray(self.compliance * (self.force + more))
 
@@ -65,23 +65,23 @@ class AverageStress:
 
     @property
     def matrix(self) -> csc_array:
-        """What the form lacks of the springs' matrix (n, n)."""
+        """Part of the springs' matrix (n, n) that the mixed form does not have."""
         return csc_array(self.rows.T @ (diags_array(self.compliance) @ self.rows))
 
     @property
     def push(self) -> Floats:
-        """What it lacks of their forces on the unknowns (n,) at the start."""
+        """Part of their forces on the unknowns (n,) at the start that it does not have."""
         return np.asarray(self.rows.T @ (self.compliance * self.force))
 
     @property
     def energy(self) -> float:
-        """What it lacks of their energy at the start (J)."""
+        """Part of their energy at the start (J) that it does not have."""
         return float(self.compliance @ self.force**2) / 2
 
 
 @dataclass(frozen=True)
 class MixedBonds:
-    """Those of the contacts of a step that have their laws in the mixed form.
+    """Contacts of a step whose law acts in the mixed form.
 
     Attributes
     ----------
@@ -128,7 +128,7 @@ class MixedBonds:
         return cls(index, normal, tangent)
 
     def stretched(self, contacts: ContactPoints) -> ContactPoints:
-        """Return the contacts with jumps as their springs feel them."""
+        """Return the contacts with the stretch of their springs as gap and slip."""
         gap, slip = contacts.gap.copy(), contacts.slip.copy()
         gap[self.index] += self.normal.stretch()
         slip[self.index] += self.tangent.stretch()
@@ -149,7 +149,7 @@ class MixedBonds:
         )
 
     def told(self, solved: ContactSolution, contacts: ContactPoints) -> ContactSolution:
-        """Return a solution with the jumps themselves; ``contacts`` are those of the step."""
+        """Return a solution with the jumps as gap and slip; ``contacts`` are those of the step."""
         answer, index = solved.answer, self.index
         gap, slip = answer.gap.copy(), answer.slip.copy()
         gap[index] -= self.normal.stretch(answer.increment)
@@ -163,5 +163,5 @@ class MixedBonds:
 
     @property
     def energy(self) -> float:
-        """Energy of springs beyond that of the form, at the start (J)."""
+        """Energy of springs beyond that of the mixed form at the start (J)."""
         return self.normal.energy + self.tangent.energy

@@ -1,4 +1,4 @@
-"""The problem of a step as laws stand, and its transforms before an enforcement sees it."""
+"""The contact problem of a step under the present history, and the transforms applied to it."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ from nmm.contact.solution.request import StepRequest
 
 @dataclass(frozen=True)
 class PosedStep:
-    """The problem of a step, and what is made of it before an enforcement sees it.
+    """The contact problem of a step, and the transforms applied before it is solved.
 
     Attributes
     ----------
@@ -30,11 +30,11 @@ class PosedStep:
     transforms
         In the order of their application.
     springs
-        That of springs over the time of the step, one of them; None where none is.
+        The one of them that weights springs over the time of the step; None without.
     dashpots
         Dampers among them; None without.
     weight
-        (m,) share of the end of the step in the stretch of each spring.
+        (m,) weight of the end of the step in the stretch of each spring.
     """
 
     problem: StepProblem
@@ -61,19 +61,19 @@ class PosedStep:
 
 @dataclass(frozen=True)
 class Posing:
-    """What a run poses the problems of its steps by.
+    """What all contact problems of a run have in common.
 
     Attributes
     ----------
     laws
         Interface laws.
     softness
-        (n,) Young's moduli of the edges over the largest (-): of two bodies that are 1e9 times
-        softer than the stiffest of a scene, that one says nothing.
+        (n,) Young's moduli of the edges over the largest (-): between two soft bodies the modulus
+        of the stiffest one is no measure.
     mass
         Of the bodies, for dampers.
     exact
-        Whether contacts without a stiffness of their own are to have none.
+        Whether contacts whose law has no stiffness are rigid, not penalty springs.
     """
 
     laws: ContactLaws
@@ -89,7 +89,7 @@ class Posing:
         more: Sequence[Transform],
         start: Floats | None,
     ) -> PosedStep:
-        """Return the problem of a step as laws stand, and its transforms; ``more`` come last."""
+        """Return the problem under the present history, and its transforms; ``more`` come last."""
         problem = self._problem(iteration, rows, request, start)
         response, contacts = iteration.response, iteration.start
         weight = end_shares(request.weight, self.exact, problem.own_stiffness, iteration.softening)
@@ -113,7 +113,7 @@ class Posing:
         if request.step is not None and self.laws.damps:
             own = own | self.laws.damped(contacts)
         if self.exact:
-            # Exact enforcements take stiffnesses for a measure of the bodies there.
+            # Exact enforcements take stiffnesses as a measure of how stiff the bodies are there.
             one, other = self.softness[contacts.edge_a], self.softness[contacts.edge_b]
             share = np.where(own, 1.0, np.minimum(one, other))
             normal, shear = share * normal, share * shear
@@ -152,9 +152,9 @@ def _weighted(
     contacts: ContactPoints,
     foreseen: Floats | None,
 ) -> TimeWeighting | None:
-    """Return how springs act over the time of a step; None where they act as at its end.
+    """Return the time weighting of springs; None where they act as at the end of the step.
 
-    ``rises`` (m,) of faces are those at both ends.
+    ``rises`` (m,) are the lifts of the faces at both ends (m).
     """
     if not some(weight < 1):
         return None

@@ -1,4 +1,4 @@
-"""What contact hands from step to step: a solved step, and what is kept of an accepted one."""
+"""The contact solution of a step, and what is kept of an accepted step for the next one."""
 
 from dataclasses import dataclass, field
 from typing import Literal
@@ -38,11 +38,11 @@ class ContactSolution:
     rows
         What the forces acted through.
     broken
-        The contacts as the last solution begins, without what bonds held that broke before it; None
-        where none did.
+        The contacts at the start of the last solution, with the bonds broken that broke before it;
+        None where none did.
     missed
-        (m,) normal forces that springs would have had at their gaps beyond those of the lines that
-        stood for them (N); None where these are what they are.
+        (m,) error of linearised spring forces at the gaps that were found (N); None where springs
+        are linear.
     """
 
     contacts: ContactPoints
@@ -69,13 +69,13 @@ class ContactSolution:
 
 @dataclass(frozen=True)
 class Broken:
-    """Contacts of which bonds broke in a step, as it begins, and the energy that these lost (J)."""
+    """Contacts at the start of a step in which bonds broke, and the energy that these lost (J)."""
 
     contacts: ContactPoints
     loss: float
 
     def among(self, sought: ContactPoints) -> ContactPoints:
-        """Return contacts of the same step sought anew, with joints as these bonds left them."""
+        """Return contacts of a new search for the same step, with these bonds broken."""
         joints = self.contacts.take(self.contacts.is_joint)
         return concatenate([joints, sought.take(~sought.is_joint)])
 
@@ -93,8 +93,8 @@ class ContactRecord:
     stored
         See `StepAnswer.stored` (J).
     crossed
-        Vertex and edge (k,) of pairs that were contacts only because the step without them let
-        them through, and that pushed.
+        Vertex and edge (k,) of pairs that became contacts because the step without them let them
+        pass, and that pressed.
     """
 
     book: JointBook

@@ -1,4 +1,4 @@
-"""What a step asks of contact."""
+"""The problem that a step hands to the contact solution."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -24,22 +24,22 @@ class StepRequest:
     step
         Its length (s); None in statics.
     weight
-        Share of its end in the stretch of springs (`nmm.contact.laws.time_weighting`).
+        Weight of its end in the stretch of springs (`nmm.contact.laws.time_weighting`).
     null_space
-        Conditions on the unknowns besides.
+        Further linear constraints on the unknowns.
     breaking
         Which bonds break at a time: "all", the "worst" alone, or "stop": none, the step ends there
         and is no equilibrium.
     near
-        Whether an increment (n,) moves no further than contacts were sought: no bond is judged by
-        one that does. None: none does.
+        Whether an increment (n,) stays within the reach of the contact search, without which no
+        bond is judged. None: every increment does.
     lost
-        Energy (J) that bonds lost which broke before, in the same step.
+        Energy (J) lost by bonds that broke earlier in the same step.
     time
-        At its end (s); None where nothing hangs on it.
+        At its end (s); None where nothing depends on time.
     foreseen
-        (n,) an increment near the answer, about which springs conserve energy; None where they are
-        posed as lines from the start.
+        (n,) a predicted increment, at which energy-conserving springs are linearised; None where
+        springs are linear from the start.
     among
         See `StepProblem`.
     """

@@ -1,4 +1,4 @@
-"""Bonds that consistent terms hold, as the steps of a run ask for them."""
+"""Bonds held by consistent terms (Nitsche's), as the steps of a run use them."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -27,9 +27,9 @@ class StepBonds:
     laws
         Of all contacts.
     terms
-        Of all bonds; None where springs hold each of them.
+        Of all bonds; None where all of them are held by springs.
     stresses
-        That effects add to the matter of both sides.
+        Stresses that effects add in the bodies on both sides.
     """
 
     laws: ContactLaws
@@ -73,9 +73,9 @@ class StepBonds:
         return mixed, given if mixed is None else mixed.posed(*given)
 
     def unsoftened(self, contacts: ContactPoints, joints: ContactPoints) -> Bools | None:
-        """Return which contacts (m,) are bonds of the mixed form while none has softened.
+        """Return which contacts (m,) are bonds of the mixed form, as long as none has softened.
 
-        ``joints`` are all of the scene as they stand. None without such bonds, or once one has.
+        ``joints`` are all joint points at present. None without such bonds, or once one has.
         """
         if self.terms is None or not (mixed := self.terms.mixed_among(joints)).any():
             return None

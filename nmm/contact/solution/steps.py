@@ -1,4 +1,4 @@
-"""Steps of a run with contact: rows, bonds and means of their points put together, and solved."""
+"""Steps with contact: rows, bonds and averages over faces, put together and solved."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -17,14 +17,14 @@ from nmm.contact.solution.step_bonds import StepBonds
 
 @dataclass(frozen=True)
 class ContactSteps:
-    """What the steps of a model are put together from.
+    """What the contact problems of a model's steps are put together from.
 
     Attributes
     ----------
     laws, geometry, bonds, solver
         Interface laws, rows of points, bonds that consistent terms hold, and what solves.
     surface
-        From a state to the edges where they are.
+        From a state to the boundary edges in their present place.
     """
 
     laws: ContactLaws
@@ -43,7 +43,7 @@ class ContactSteps:
     ) -> ContactSolution:
         """Solve one step; forces act at ``midpoint``, at the start of the step when None.
 
-        ``end`` is where the step is foreseen to end, of bodies that bend by any angle.
+        ``end`` is the predicted end of the step, of bodies under finite strain.
         """
         alone = self.solver.alone(contacts, request)
         if alone is not None:
@@ -69,7 +69,7 @@ class ContactSteps:
     ) -> float:
         """Energy of contacts as last committed (J): of springs, and of an enforcement's own.
 
-        ``joints`` are those of the record as they stand; ``exact`` contacts are no springs.
+        ``joints`` returns the joint points at present; ``exact`` contacts store no energy.
         """
         known = [] if record.known is None else [record.known]
         points = concatenate([record.book.points, *known])

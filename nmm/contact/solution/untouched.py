@@ -1,4 +1,4 @@
-"""A step in time in which nothing comes near anything: one linear system, its factor kept."""
+"""A step in time without contact points: one linear system, whose factor is kept."""
 
 import numpy as np
 from scipy.sparse import csc_array
@@ -9,7 +9,7 @@ from nmm.contact.solution.record import ContactSolution
 from nmm.contact.solution.request import StepRequest
 from nmm.solvers.linear import Factor
 
-SETTLED = Verdict(True, "converged", "nothing is near anything")
+SETTLED = Verdict(True, "converged", "no contact points")
 
 
 class Untouched:

@@ -1,1 +1,1 @@
-"""The effects of a scene as the step loop asks them: built, handed on to another model, summed."""
+"""The effects of a scene as the step loop uses them: built, carried to other models, summed."""

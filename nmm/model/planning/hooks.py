@@ -12,7 +12,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Hooks:
-    """Effects by name, asked by their hooks; a hook that no effect has is never called.
+    """Effects by name and hook; a hook that no effect defines is never called.
 
     Attributes
     ----------

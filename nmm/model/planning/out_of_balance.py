@@ -1,4 +1,4 @@
-"""What is out of balance where a stage begins: what leaves no longer pushes what stays."""
+"""The residual at the start of a stage: what leaves no longer pushes what stays."""
 
 from typing import TYPE_CHECKING
 

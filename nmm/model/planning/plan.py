@@ -1,4 +1,4 @@
-"""The effects of a scene and the hooks they have, asked all together.
+"""The effects of a scene and their hooks, called all together.
 
 Hooks that no effect has are never called.
 """
@@ -43,7 +43,7 @@ SHARED = frozenset(
 
 @dataclass(frozen=True)
 class Plan(Hooks):
-    """The effects of a scene; what they do is summed over those that have a hook.
+    """The effects of a scene; a hook is summed over the effects that define it.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ class Plan(Hooks):
         return Plan({**self.effects, effect.name: effect})
 
     def connected(self) -> "Plan":
-        """Tell the effects that ask what others add and push; return the plan itself."""
+        """Connect effects to the stresses and forces of others; return the plan itself."""
         self.hooks.clear()
         for effect in self.having("feel_pushes"):
             effect.feel_pushes([other.pushes for other in self.having("pushes")])
@@ -149,7 +149,7 @@ class Plan(Hooks):
         }
 
     def felt_energy(self, state: State) -> float:
-        """Return the energy (J) at edges of stresses that what holds them was told of."""
+        """Return the energy (J) at held edges of stresses that effects add."""
         return sum(effect.felt_energy(state) for effect in self.having("felt_energy"))
 
     def added_stress(self, state: State) -> Floats | None:

@@ -90,7 +90,7 @@ class FrontalFactor:
 
         In single precision where that keeps digits enough for a correction that later ones mend:
         a solution is as long as its factor takes to be read. They hold the factor, whose panels
-        are a workspace, as long as they use it. A factor that is asked for again goes on being so:
+        are a workspace, as long as they use it. A factor that is requested again goes on being so:
         from then on its pivot blocks are inverted.
         """
         if next(self.turns) > 0 and self.symmetric:

@@ -2,7 +2,7 @@
 
 The error of a step of an integrator of order ``p`` falls with its length to the power ``p + 1``,
 and a motion takes steps in number one over their length. So that the error of the whole motion is
-proportional to what is asked for, a step may err by ``error^(1 + 1 / p)`` of what moves
+proportional to what is requested, a step may err by ``error^(1 + 1 / p)`` of what moves
 (tolerance proportionality: Soederlind and Wang 2006). A bound on each step, and not on a step over
 its length, can be met by steps in which speeds jump, too.
 """
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from nmm.formulation import IntegratorTable
 
 ERROR, SHORTEST_STEP, LONGEST, FIRST = 0.01, 1e-7, 0.1, 1e-3
-"""What is asked for by default: the error, and the bounds and the first of the steps as shares of
+"""What is requested by default: the error, and the bounds and the first of the steps as shares of
 the duration."""
 # Of the bound, what the next step aims at; and the exponents of the controller, over the order of
 # the error: PI.4.2 of Soederlind (2003), without oscillation of lengths and with few rejections.

@@ -76,7 +76,7 @@ def _made(run: Ended) -> Findings:
 def _driven(run: Ended) -> AuditFinding:
     """Energy that dampers and friction gave in all, and matter in some steps.
 
-    What hangs on a velocity's sign lags behind.
+    What depends on a velocity's sign lags behind.
     """
     ledger = run.recorder.ledger
     losses = {**ledger.damping_loss, "friction and bonds": ledger.friction_loss}

@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from nmm.assembly.motion import State
     from nmm.stepping.step.stepper import Stepper
 
-# The bound is found to this share of the width that is asked for.
+# The bound is found to this share of the width that is requested.
 FINE = 1e-3
 
 

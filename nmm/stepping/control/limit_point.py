@@ -18,7 +18,7 @@ PEAK_PASSED, PART = 0.98, 0.01
 
 
 class LimitPoints:
-    """Looks for limit points, once from each state: a path is the same however far it is asked for.
+    """Looks for limit points, once from each state: a path is the same however far it is requested.
 
     Parameters
     ----------

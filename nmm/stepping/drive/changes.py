@@ -1,7 +1,7 @@
-"""What a run does when what it solves has changed, be it by a stage or by an event in mid-run.
+"""How a run continues on a changed discretisation, after a stage or an event in mid-run.
 
 Blocks and cracks have another geometry, the state is carried over to it, effects follow, the
-recorder goes on with the new model and the sink is told the new elements. An event is asked for by
+recorder goes on with the new model and the sink is told the new elements. An event is requested by
 an effect (`nmm.effects.base.Effect.event`) after an accepted step; a scene without such effects
 pays one look at an empty list.
 """

@@ -115,7 +115,7 @@ def _fixed(recorder: Recorder, at: InTime, schedule: Schedule) -> Taken:
 
 
 def _by_error(recorder: Recorder, at: InTime, schedule: Schedule) -> Taken:
-    """Take a step as long as its error lets, in two halves; it ends where a frame is asked for."""
+    """Take a step as long as its error lets, in two halves; it ends where a frame is requested."""
     from nmm.stepping.adaptive.trial_step import TrialStep
 
     control, state = schedule.control, at.state
@@ -150,7 +150,7 @@ def _step_or_cut(
 
 
 def _halves(step: float, smallest: float) -> Iterator[float]:
-    """Yield a step, though it be small, and its halves down to the smallest."""
+    """Yield a step, however small, and its halves down to the smallest."""
     yield step
     while step / 2 >= smallest:
         step /= 2

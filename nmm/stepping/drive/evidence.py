@@ -1,4 +1,4 @@
-"""What shows that a structure, and not the solver, is at fault where no equilibrium was found."""
+"""Evidence that the structure, and not the solver, is why no equilibrium was found."""
 
 from collections.abc import Sequence
 
@@ -15,7 +15,7 @@ from nmm.stepping.step.stepper import Stepper
 def evidence(
     stepper: Stepper, state: State, factor: float, found: Settled, names: Sequence[str]
 ) -> str | None:
-    """Return what shows that a structure, and not the solver, is at fault; None if nothing does.
+    """Return the evidence that the structure, not the solver, has failed; None without any.
 
     The static theorem, a motion without end, a system that is singular with the bonds and contacts
     that are left, or a stiffness that the load takes away.

@@ -1,4 +1,4 @@
-"""Where a run in time stands, and how long and in what steps it goes on."""
+"""Progress of a run in time: its state, the time left, and its steps."""
 
 from dataclasses import dataclass
 from math import inf
@@ -62,7 +62,7 @@ class Schedule:
 
 
 def control_of(stepper: "Stepper", formulation: "Formulation", duration: float) -> "StepControl":
-    """Return what chooses the steps of a run; none passes over a record's samples."""
+    """Return the step control of a run; no step passes over a sample of a record."""
     from nmm.stepping.adaptive.control import StepControl
 
     table, plan = formulation.integrator, stepper.plan
@@ -81,7 +81,7 @@ def control_of(stepper: "Stepper", formulation: "Formulation", duration: float) 
 
 @dataclass(frozen=True)
 class InTime:
-    """Where a run in time stands.
+    """Progress of a run in time.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Phases of a run, or of a stage: loads come on, and time passes."""
+"""Phases of a run or stage: loads grow, then time passes."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -33,7 +33,7 @@ GATHERS, GATHERED = 4.0, 0.03
 # Over this way one that cannot stand where it starts, by the static theorem, has fallen, though it
 # might come to lie on something further on.
 FALLEN = 0.25
-# Steps after which the static theorem is asked again where blocks are to rest near.
+# Steps after which the static theorem is evaluated again where blocks must rest near.
 LOOK = 20
 # Up to this way the motion that is told of a block that moves freely is looked for.
 FREE_WAY = 0.01
@@ -82,7 +82,7 @@ def relax(
 
 
 class _Search:
-    """A search for rest: where blocks are, and what their motion has told so far.
+    """A search for rest: where blocks are, and the record of their motion.
 
     Attributes
     ----------
@@ -149,7 +149,7 @@ class _Search:
         return None
 
     def _take(self, found: Attempt, length: float) -> None:
-        """Go on from the end of a step."""
+        """Continue from the end of a step."""
         self.moving.accept(found)
         self.lost += _taken(self.moving, self.state, found)
         goes = self.pace.speed(self.heavy, found.state.velocity)

@@ -1,4 +1,4 @@
-"""Equilibrium in the moved place: a step is solved, moved and corrected until nothing moves.
+"""Equilibrium on the updated geometry: a step is solved, bodies are moved, and it is corrected.
 
 Where blocks may be loose anchors hold them meanwhile, which carry nothing in the end.
 """
@@ -61,7 +61,7 @@ def settle(
     breaking: "Breaking",
     broken: "Broken | None" = None,
 ) -> Settled:
-    """Find equilibrium in the moved place: solve, move, and correct until nothing moves.
+    """Find equilibrium on the updated geometry: solve, move, correct until nothing moves.
 
     ``broken`` are bonds that broke in an attempt of the same step before.
 

@@ -1,4 +1,4 @@
-"""One stage after the other: what is solved changes between them, and the state is carried over."""
+"""Stages in sequence: the discretisation changes between them, the state is carried over."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 SMALLEST_INCREMENT = 2.0**-30
 # Share of the tolerance to which increments are cut where matter flows to a given load.
 FLOWING = 1e-6
-# Share of the stored energy from which on what was lost on the way to rest is told.
+# Share of the stored energy from which on the loss on the way to rest is reported.
 TOOK = 1e-6
 CUT = (
     "increments of it cut, and the steps of its fields with them, on whose length these hang: take "
@@ -54,7 +54,7 @@ def run_load(
     keep: Callable[[UnderLoad], UnderLoad] = lambda at: at,
     beyond: Beyond = unseen,
 ) -> tuple[State, RunVerdict]:
-    """Raise the load factor from where it stands; ``names`` are those of the regions.
+    """Raise the load factor from its present value; ``names`` are those of the regions.
 
     ``keep`` is shown where every accepted increment but the last one ends; ``beyond`` looks for a
     limit point beyond a state, before a load factor.
@@ -113,7 +113,7 @@ class _Raising:
         return replace(at, increment=at.increment / 2, cuts=at.cuts + 1)
 
     def _tried(self, at: UnderLoad) -> Trial:
-        """Look for equilibrium under one increment more, with anchors where nothing else helps."""
+        """Seek equilibrium under one more increment, with anchors where nothing else helps."""
         stepper, schedule, state = self.stepper, self.schedule, at.state
         factor = min(state.load_factor + at.rise, schedule.target)
         finest = max(schedule.tolerance * factor, SMALLEST_INCREMENT * schedule.increment)

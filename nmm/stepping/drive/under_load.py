@@ -1,4 +1,4 @@
-"""Where growing loads stand, how far they are to grow, and what came of an increment."""
+"""Progress of growing loads: the state, the target, and the result of an increment."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -60,7 +60,7 @@ class LoadSchedule:
     def brought_on(
         cls, steps: "LoadSteps", begin: float, stops: bool, followed: bool = False
     ) -> "LoadSchedule":
-        """Return how loads come on in full: at once, unless increments are asked for.
+        """Return the schedule of full loads: at once, unless increments are requested.
 
         So they are where a field is ``followed``.
         """
@@ -88,7 +88,7 @@ class Rest:
 
 @dataclass(frozen=True)
 class UnderLoad:
-    """Where growing loads stand.
+    """Progress of growing loads.
 
     Attributes
     ----------

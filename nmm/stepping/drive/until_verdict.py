@@ -1,4 +1,4 @@
-"""A run as a sequence of states: from each to the next, until a verdict ends it."""
+"""A run as a sequence of states, until a verdict ends it."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol, TypeVar
@@ -34,7 +34,7 @@ def until_verdict(
     recorder: Recorder,
     stopped: str = "stopped in equilibrium",
 ) -> tuple[State, RunVerdict]:
-    """Go on from where a run stands until a step ends it, or its budget is spent.
+    """Continue a run until a step ends it, or its budget is spent.
 
     ``stopped`` says what a budget that is spent leaves.
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def viewed(stepper: Stepper, state: State, contacts: "ContactPoints | None") -> View:
-    """Return a state with what can be read from it; stress is computed when it is asked for."""
+    """Return a state with what can be read from it; stress is computed when it is requested."""
     return View(stepper.model, state, contacts, lambda state: _stress(stepper, state))
 
 

@@ -149,7 +149,7 @@ class Recorder:
         self.totals = with_parts(self.totals, lengths=lengths)
 
     def next_frame(self, time: float) -> float:
-        """Return when (s) the next frame is asked for; infinite where no time counts."""
+        """Return when (s) the next frame is requested; infinite where no time counts."""
         return self.choice.next(self.choice.periods(time))
 
     def brought_to(self, state: State) -> None:
@@ -174,7 +174,7 @@ class Recorder:
     def happened(
         self, state: State, stage: str, contacts: "ContactPoints | None", what: str
     ) -> None:
-        """Keep what an event changed; its state is a frame where events are asked for."""
+        """Keep what an event changed; its state is a frame where events are requested."""
         changes = (*self.totals.changes, what)
         self.totals = with_parts(self.totals, changes=changes, stored=False)
         if "shape_changes" in self.choice.events:

@@ -1,4 +1,4 @@
-"""Blocks that nothing holds: soft anchors in statics, and words for how a block moves.
+"""Unsupported blocks: soft anchors in statics, and words for how a block moves.
 
 Where statics with contact finds no equilibrium, every body is anchored by springs of `ANCHOR` times
 its own stiffness to where it stands when a solution begins. Solutions are repeated from the moved
@@ -37,7 +37,7 @@ def anchors(model: Model) -> csc_array:
 
 
 def unheld(stepper: "Stepper", state: State, names: Sequence[str], balanced: bool) -> list[str]:
-    """Say which blocks nothing holds, and how they could move, though no load does if ``balanced``.
+    """Say which blocks are unsupported, and how they could move; no load does if ``balanced``.
 
     A solver may leave a part without load where it stands, so they are asked where no anchors were
     used too.

@@ -5,7 +5,7 @@ from time import perf_counter
 
 
 class BudgetSpentError(Exception):
-    """No more seconds or steps: the run ends with what it has. No fault of its files."""
+    """Seconds or steps are spent: the run ends with its last step. Its files have no fault."""
 
 
 @dataclass

@@ -22,7 +22,7 @@ class LaidAnew:
 
 @dataclass(frozen=True)
 class CarriedOver:
-    """All of it; what else a stepper and its effects keep may be dropped at any time.
+    """All that is carried; whatever else is kept may be dropped at any time.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""With which contacts a step is solved, and with which it is solved again.
+"""The contacts with which a step is solved, and those with which it is repeated.
 
 Contacts are sought as far as points can move in a step. The first step has no motion to go by; one
 that moves further is solved again, and so is one that lets points through an edge, or whose forces
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Sought:
-    """With what contacts a step is solved, and how often it was solved again for what it did.
+    """The contacts with which a step is solved, and how often it was repeated, by cause.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ class Sought:
 
 
 class ContactSearch:
-    """Seeks the contacts of steps.
+    """Searches for the contacts of steps.
 
     Parameters
     ----------
@@ -129,9 +129,9 @@ class ContactSearch:
         result: Attempt,
         motion: "Motion | None",
     ) -> Sought | None:
-        """Return with what a step is solved again; None where its solution stands.
+        """Return the contacts with which a step is repeated; None where its solution is accepted.
 
-        ``motion`` is None where bodies went further than contacts were sought.
+        ``motion`` is None where bodies moved beyond the reach of the search.
         """
         if motion is None:
             return self._further(equations, sought, solved, FURTHER * result.motion)
@@ -150,16 +150,16 @@ class ContactSearch:
     def _further(
         self, equations: Equations, sought: Sought, solved: "ContactSolution", reach: float
     ) -> Sought:
-        """Return what is sought up to ``reach`` (m); bonds that broke before stay broken.
+        """Return the contacts within a larger ``reach`` (m); bonds that broke before stay broken.
 
-        None of them was judged by an answer that went further than contacts were sought.
+        None of them was judged by a solution beyond the reach of the search.
         """
         found = self._anew(equations, replace(sought, reach=reach))
         broken = solved.broken or sought.broken
         return found if broken is None else found.without(broken)
 
     def _anew(self, equations: Equations, sought: Sought) -> Sought:
-        """Return what was sought with contacts found anew."""
+        """Return the same with the contacts of a new search."""
         given = equations.state, sought.reach, equations.step, sought.crossed
         found = self.candidates(*given)
         return replace(sought, contacts=found, midpoint=sought.ahead, broken=None)
@@ -167,7 +167,7 @@ class ContactSearch:
     def _ahead(self, equations: Equations, contacts: "ContactPoints") -> State | None:
         """Return where bodies are half way if they go on turning; None where they hardly turn.
 
-        It goes by the state alone, so that a run that is resumed foresees the same.
+        It depends on the state alone, so that a resumed run predicts the same.
         """
         state, step = equations.state, equations.step
         if step is None or not self.turns(equations):

@@ -1,4 +1,4 @@
-"""A step in which bodies may touch: its contacts are solved, and judged by how far all moved."""
+"""A step with contact: solved, and judged by how far bodies moved."""
 
 from typing import TYPE_CHECKING
 
@@ -111,7 +111,7 @@ class Touching:
         return self._paths.attempt(self.solver, equations, path, reach)
 
     def _why(self, solution: str, result: Attempt, solved: "ContactSolution") -> str:
-        """Say why a solution is no step, though it be one of its equations."""
+        """Return why a solution of the equations is not accepted as a step."""
         if solved.stopped:
             return "a bond cannot hold: the increment is cut before it breaks"
         if solved.answer.verdict.converged and result.motion > self._size:
@@ -159,7 +159,7 @@ class Touching:
             return self.search.contact.steps.solve(*given, end)
 
     def _near(self, equations: Equations, foreseen: Attempt | None) -> Attempt | None:
-        """Return what is foreseen of a step in time of bodies that bend by any angle; else None."""
+        """Return the predicted end of a step in time under finite strain; else None."""
         bends = self._mover.kinematics.finite and self.search.contact.geometry.conserves
         if equations.step is None or not bends:
             return None
@@ -197,7 +197,7 @@ class Touching:
     ) -> Attempt:
         """Return the attempt with the velocity that keeps momentum and angular momentum.
 
-        Where its end was ``foreseen`` it is told by how much forces at the end differ.
+        Where its end was ``foreseen`` it has the difference of the forces at the end.
         """
         begin, state = equations.state, result.state
         if self.search.turns(equations):

@@ -1,4 +1,4 @@
-"""A step in which nothing touches: one linear system, and where it moves the bodies."""
+"""A step without contact: one linear system, and the motion of the bodies."""
 
 from dataclasses import replace
 

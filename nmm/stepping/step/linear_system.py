@@ -1,4 +1,4 @@
-"""The linear system of a step in which nothing touches, with conditions if supports make them."""
+"""The linear system of a step without contact, with constraints where supports have them."""
 
 from dataclasses import dataclass
 
@@ -80,7 +80,7 @@ class LinearSystem:
         return [change[:n] for change in rounding_changes(self.factor, *self._last)]
 
     def adrift(self) -> bool:
-        """Whether the unknown that moved most in the last static step does not bear its own load.
+        """Whether the unknown that moved most in the last static step is out of balance itself.
 
         Beside far larger loads on others that is no residual to speak of.
         """

@@ -1,4 +1,4 @@
-"""Where bodies are after an increment, how fast, and how far their points have moved."""
+"""Position and velocity of bodies after an increment, and the motion of their points."""
 
 from typing import TYPE_CHECKING
 
@@ -77,7 +77,7 @@ class Mover:
     def _placed(self, state: State) -> Floats:
         contact = self._current.plan.contact
         if contact is not None and contact.partners.sides.whole:
-            # The same points, which contact is asked for too.
+            # The same points, which contact is requested too.
             return contact.partners.surface(state).start
         return self.vertices.place(state.frames, state.deformation)
 

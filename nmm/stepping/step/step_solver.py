@@ -1,4 +1,4 @@
-"""One step from a state: assemble what is constant in it, solve, and say what came of it.
+"""One trial step from a state: assemble what is constant in it, solve, return the result.
 
 Only what may be dropped at any time is kept: factors, patterns and lists.
 """
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 
 class StepSolver:
-    """Solves steps of what is solved now.
+    """Solves trial steps of the present discretisation.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ class StepSolver:
             part.solver = solver
 
     def follow(self, change: "Change") -> None:
-        """Solve what a change has made of what was solved."""
+        """Continue on the discretisation after a change."""
         self.mover.follow(change)
         if self._touching is not None:
             self._touching.forget()

@@ -1,4 +1,4 @@
-"""From accepted step to accepted step: what is carried on, and how changes are followed."""
+"""Accepted steps: what is carried from one to the next, and how changes are followed."""
 
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 
 class Stepper:
-    """Takes steps of one plan: nothing of an attempt is kept unless it is accepted.
+    """Takes the steps of a run: nothing of a trial step is kept unless it is accepted.
 
     Attributes
     ----------
@@ -83,7 +83,7 @@ class Stepper:
         return replace(self._carried, laid=laid, geometry=self._geometry, effects=effects)
 
     def carry(self, carried: CarriedOver) -> None:
-        """Go on from what was carried elsewhere, with nothing that was kept here."""
+        """Continue from what was carried in another run, without what was kept here."""
         if carried.geometry is not None and self._geometry is None:
             self.reshape(carried.geometry, self.discretisation.setup.start)
         self._carried = replace(carried, laid=None, geometry=None, effects={})
@@ -93,7 +93,7 @@ class Stepper:
         self.forget()
 
     def return_to(self, carried: CarriedOver) -> None:
-        """Take back what was accepted since `carried` was this; what is kept for speed stays."""
+        """Return to the accepted step of `carried`; what is kept for speed stays."""
         self._carried = replace(carried, laid=None, geometry=None, effects={})
         self.plan.carry(carried.effects)
         if self.plan.contact is not None:
@@ -111,7 +111,7 @@ class Stepper:
 
     @property
     def integrator(self) -> Integrator:
-        """What takes the steps."""
+        """The time integrator."""
         return self._integrator
 
     @property
@@ -186,7 +186,7 @@ class Stepper:
         return self._steps.along(state, path, self._rule, self._carried.reach)
 
     def accept(self, attempt: Attempt) -> tuple[State, "ContactPoints | None"]:
-        """Make an attempt the start of the next step; return it with its contacts as left."""
+        """Accept a trial step as the start of the next one; return it with its final contacts."""
         reach, restarts = self._steps.reach(attempt.motion), self._integrator.restarts_at_impact
         self._carried = self._carried.after(attempt, reach, restarts)
         state, contact, contacts = attempt.state, self.plan.contact, None
@@ -208,7 +208,7 @@ class Stepper:
         return change.state
 
     def follow(self, change: "Change", new: Discretisation) -> None:
-        """Solve ``new`` from now on, which is what a change has made of what was solved."""
+        """Continue on the ``new`` discretisation after a change."""
         self._current.discretisation = new
         self.reference = change.new.manifold.elements.points
         self._steps.follow(change)
@@ -230,7 +230,7 @@ class Stepper:
         return change
 
     def begin_anew(self, change: "Change", integrator: Integrator | None = None) -> None:
-        """Solve what a change leads to from now on, whose unknowns are others.
+        """Continue on the discretisation after a change, with other unknowns.
 
         The next step is a first one: no acceleration is known, and nothing is kept for speed.
         ``integrator`` is another one if the change asks for it.
@@ -252,7 +252,7 @@ class Stepper:
         return self._steps.candidates(state, reach, step)
 
     def remember(self) -> "ContactRecord | None":
-        """Return what contact knows now, for `restore`."""
+        """Return the present record of contact, for `restore`."""
         return None if self.plan.contact is None else self.plan.contact.record
 
     def restore(self, record: "ContactRecord | None") -> None:

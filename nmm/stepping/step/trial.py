@@ -1,4 +1,4 @@
-"""What came of a step."""
+"""The result of a trial step."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Self
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Attempt:
-    """What came of a step; to be accepted or thrown away.
+    """The result of a trial step, to be accepted or discarded.
 
     Attributes
     ----------
@@ -61,14 +61,14 @@ class Attempt:
 
     @classmethod
     def failed(cls, state: State, fault: SolveError) -> Self:
-        """Return what came of a step from ``state`` that has no solution."""
+        """Return the result of a step from ``state`` that has no solution."""
         rest = np.zeros_like(state.deformation)
         return cls(False, str(fault), state, rest, 0.0, np.nan, 1, singular=fault.singular)
 
     def told(
         self, converged: bool, sentence: str, solved: "ContactSolution", passes: int
     ) -> "Attempt":
-        """Return where bodies are moved with how their contacts were solved."""
+        """Return the result with the outcome of the contact solution."""
         residual = solved.answer.residual
         verdict = {"converged": converged, "sentence": sentence, "residual": residual}
         return with_parts(self, **verdict, passes=passes, solved=solved)

@@ -1,4 +1,4 @@
-"""What springs store goes on in those beside them where contacts end or become others.
+"""Energy of contacts that end is handed to other springs between the same two bodies.
 
 A corner that leaves the end of an edge, or that becomes one with another corner, takes its spring
 with it. The springs that still push between the same two bodies are stretched by one factor, so

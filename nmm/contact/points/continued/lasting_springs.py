@@ -1,4 +1,4 @@
-"""Springs of stretches of faces that push: in time they are as they were when they began.
+"""Springs of face segments that push: in time they keep the stiffness they began with.
 
 Springs of stretches are as stiff as these are long, and points inside a stretch move with its ends.
 Both change as bodies turn and slide, with no work that pays for it. So a spring that pushes is one

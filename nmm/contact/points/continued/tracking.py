@@ -26,7 +26,7 @@ CARRIED = ("slip", "state", "normal_force", "shear_force")
 def searched_points(
     found: Contacts, interface: Ints, history: History, surface: Surface | None = None
 ) -> ContactPoints:
-    """Return found contacts as points that remember what contacts without bond do at first.
+    """Return found contacts as points with the initial history of contacts without bond.
 
     Those that stand for a stretch of a face are as stiff as that is long: as stiff as a vertex of
     the body with the shorter edges on ``surface`` when it is half of such an edge.

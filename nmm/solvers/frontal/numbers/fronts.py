@@ -2,7 +2,7 @@
 
 Panels hold the factor of the pivot block with ``L`` below. For LU, rows are exchanged within the
 pivot block of a front alone, so the plan of a symmetric pattern stands whatever the numbers are;
-the transpose of ``U`` beside the pivot block is kept behind all panels. What differs hangs on
+the transpose of ``U`` beside the pivot block is kept behind all panels. What differs depends on
 whether there is room for exchanges, ``swaps``; the two share all that runs over fronts.
 """
 

@@ -1,4 +1,4 @@
-"""Forces of effects that bend within a step.
+"""Nonlinear forces of effects within a step.
 
 Effects stand in the equations of a step with their line at its start (`Effect.force`, `matrix`).
 What their force through the step has beyond it joins the internal forces, over the weight that the

@@ -1,4 +1,4 @@
-"""Internal forces that bend within a step: of matter that is not linear, and of effects."""
+"""Nonlinear internal forces within a step: of materials and of effects."""
 
 import numpy as np
 

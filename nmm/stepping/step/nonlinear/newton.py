@@ -87,7 +87,7 @@ def _accepted(found: Attempt, then: Iterate) -> Attempt:
 
 
 def _lost(found: Attempt, state: State, flows: str) -> Attempt:
-    """Return the attempt at a step from ``state`` whose iterations bring nothing."""
+    """Return the result of a step from ``state`` whose iterations make no progress."""
     said = (
         f"internal forces are {found.imbalances[-1]:.1e} of all out of balance after "
         f"{len(found.imbalances)} iterations"
@@ -96,13 +96,13 @@ def _lost(found: Attempt, state: State, flows: str) -> Attempt:
 
 
 def _failed(found: Attempt, said: str, flows: str) -> Attempt:
-    """Return an attempt that is no step, with why; matter that ``flows`` is a mechanism."""
+    """Return a failed result with its reason; matter that ``flows`` is a mechanism."""
     sentence = f"{flows}; {said}" if flows else said
     return replace(found, sentence=sentence, singular=found.singular or bool(flows))
 
 
 def _goes_on(found: Attempt) -> bool:
-    """Whether an iteration goes on though its solution is no step: a bond may yet hold."""
+    """Whether to iterate on after an unacceptable solution: a bond may still hold."""
     return found.solved is not None and found.solved.stopped
 
 
@@ -129,14 +129,14 @@ def _balanced(imbalances: list[float], tolerance: float, residual: float) -> boo
 
 
 def _hopeless(imbalances: list[float]) -> bool:
-    """Whether enough has been tried, or the last iterations brought nothing."""
+    """Whether the iterations are used up, or the last ones made no progress."""
     last, before = imbalances[-FRUITLESS:], imbalances[:-FRUITLESS]
     fruitless = bool(before) and min(last) > FRUIT * min(before)
     return fruitless or len(imbalances) == MOST or not np.isfinite(imbalances[-1])
 
 
 def _falls(imbalances: list[float]) -> bool:
-    """Whether little is out of balance, and it falls with the tangent as it was."""
+    """Whether the residual is small, and falls with the last tangent."""
     last, before = imbalances[-1], imbalances[-2] if len(imbalances) > 1 else np.inf
     return last <= NEARLY and last <= FALLS * before
 
