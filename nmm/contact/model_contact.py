@@ -8,6 +8,7 @@ from dataclasses import replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
+import numpy as np
 from scipy.sparse import csr_array
 
 from covers.change.parentage import Parentage
@@ -17,6 +18,7 @@ from nmm.assembly.motion import State
 from nmm.contact.candidates.candidates import Candidates
 from nmm.contact.candidates.held_back import Crossed
 from nmm.contact.detection.narrow_phase import Contacts
+from nmm.contact.detection.tolerances import FIRST_REACH
 from nmm.contact.parts import ContactParts
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.joint_book import follow_joints
@@ -116,15 +118,20 @@ class ModelContact:
         self.record = succeeding(old.record, self.record, *given)
         self._unbonded = self.record.book.broken - old.broken_bonds
 
-    def lie_under(self, stress: "StressIn") -> None:
-        """Let springs of joints carry a stress of the ground from the start."""
-        if not len(self.record.book.points):
-            return
-        from nmm.contact.laws.laid_under_stress import laid_under_stress
+    def lie_under(self, stress: "StressIn", state: State) -> None:
+        """Let springs of joints and of bodies that touch carry a stress of the ground at first."""
+        from nmm.contact.laws.laid_under_stress import found_under_stress, laid_under_stress
 
         book = laid_under_stress(self.record.book, self.model, self.laws, stress)
         self.record = replace(self.record, book=book)
-        self.stored_first = self.laws.energy(book.points, own_only=self.exact)
+        size = float(np.hypot(*np.ptp(self.model.manifold.elements.points, axis=0)))
+        found, points = self._candidates.sought(self.record, state, FIRST_REACH * size)
+        points = points.take(~points.is_joint)
+        if len(points):
+            given = self.model, self.laws, stress, self.exact
+            points = found_under_stress(points, self.partners.surface(state), *given)
+            self.record = replace(self.record, found=found, known=points)
+        self.stored_first = self.laws.energy(self.standing, own_only=self.exact)
 
     def candidates(
         self,

@@ -34,9 +34,9 @@ class Contact(ModelContact, Effect):
         return found
 
     def begin(self, state: State) -> State:
-        """See `Effect.begin`: joints carry what stress there is in the ground as they are drawn."""
+        """See `Effect.begin`: contacts carry the stress of the ground as they are drawn."""
         if self._ground is not None:
-            self.lie_under(self._ground)
+            self.lie_under(self._ground, state)
         return state
 
     @property

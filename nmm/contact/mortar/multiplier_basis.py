@@ -62,13 +62,19 @@ def functions_along(contacts: ContactPoints, surface: Surface, space: TraceSpace
 def _on_runs(at: Floats, new: Bools, space: TraceSpace, free: Bools) -> Entries:
     """Functions at points of runs: of fine nodes where a run has few of the others inside.
 
-    One hat alone, even along a run, would let its faces turn into each other.
+    One hat alone, even along a run, would let its faces turn into each other. Where there are more
+    fine nodes inside than points, pressures of these are any: each point is held by itself.
     """
     first = np.flatnonzero(new)
-    low, high = _inner(at[first], at[np.append(first[1:], len(at)) - 1], space.node)
-    few = (high - low + 1 < ENOUGH_NODES)[np.cumsum(new) - 1]
-    parts, count = [], 0
-    for some, node in ((~few, space.node), (few, space.fine)):
+    last = np.append(first[1:], len(at)) - 1
+    nodes, fine = (
+        1 + high - low
+        for low, high in (_inner(at[first], at[last], node) for node in (space.node, space.fine))
+    )
+    few, run = nodes < ENOUGH_NODES, np.cumsum(new) - 1
+    single = few & (fine >= last - first)
+    parts, count = [Entries(first[:0], first[:0], np.zeros(0))], 0
+    for some, node in ((~few[run], space.node), ((few & ~single)[run], space.fine)):
         (points,) = some.nonzero()
         if len(points):
             part = _hats(at[points], new[points], node, free[points])

@@ -36,8 +36,8 @@ class ContactPoints:
     state, normal_force, shear_force
         (m,) what the last step left, the warm start of this one.
     reference
-        (m,) overlap that no step has made, as a gap (m), not positive; see
-        `nmm.contact.points.continued.reference_gap`.
+        (m,) overlap that no step has made, as a gap (m); positive is what a stress at the start
+        had closed; see `nmm.contact.points.continued.reference_gap`.
     history
         What interface laws remember: columns (m,) by name (`nmm.interfaces.history`).
     """

@@ -44,8 +44,8 @@ class Untouched:
             # A factor may hold its matrix in another order of its entries.
             factor = self.factor = request.solver.factorise(request.matrix)
             self.matrix = request.matrix
-        increment = factor.solve(request.force)
-        residual = factor.relative_residual(increment, request.force)
+        increment = factor.solve(request.force, request.among)
+        residual = factor.relative_residual(increment, request.force, request.among)
         none, states = np.zeros(0), np.zeros(0, dtype=np.int64)
         told = 1, residual, SETTLED, int(not kept), request.solver.name
         answer = StepAnswer(increment, none, none, none, none, states, *told)

@@ -156,10 +156,10 @@ class Assembly:
         line = Linearisation.linear(model, state) if matter is None else matter
         parts = list(plan.forces(state, end))
         force = sum(parts, start=np.zeros(len(state.deformation))) - line.force
-        among = None
-        if model.manifold.dependent:
+        among, rests = None, step is None or plan.inertia is None
+        if model.manifold.dependent or not rests:
             among = sum((np.abs(part) for part in parts), start=np.abs(line.force))
-        if step is None or plan.inertia is None:
+        if rests:
             nothing = ROUNDING if matter is None else BALANCED
             held = self._anchored(line.stiffness) if anchored else line.stiffness
             matrix, even = plan.matrix(state, held), line.symmetric

@@ -113,7 +113,8 @@ def continued(
         gap = np.where(pressed, normal / np.where(pressed, stiff, 1.0), gap)
         slip = np.where(line.same, slip, shear / np.where(soft > 0, soft, 1.0))
     gap = np.where(line.same, line.kept(old.gap, gap), gap)
-    reference = np.minimum(measured - gap, 0.0)
+    most = np.maximum(line.kept(old.reference, np.zeros_like(gap)), 0.0)
+    reference = np.minimum(measured - gap, most)
     return replace(
         new,
         gap=measured - reference,

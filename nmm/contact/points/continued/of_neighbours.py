@@ -50,13 +50,17 @@ def _mean_slip(new: ContactPoints, left: ContactPoints, body: Ints) -> Floats:
     return mean[np.searchsorted(pair, _pairs(new, body))]
 
 
-def beside(born: ContactPoints, old: ContactPoints, body: Ints) -> Floats:
-    """Stretch (m,) of the most pressed contact that the same two bodies had on faces."""
+def beside(born: ContactPoints, old: ContactPoints, body: Ints) -> tuple[Floats, Floats]:
+    """Stretch (m,) of the most pressed contact that the same two bodies had on faces.
+
+    And the largest reference (m,) of these, if above zero.
+    """
     faces = old.take(old.length > 0)
     pair_old, pair_born = matched(faces, born, body)
-    least = np.zeros(1 + int(max(pair_old.max(initial=0), pair_born.max(initial=0))))
+    least, most = np.zeros((2, 1 + int(max(pair_old.max(initial=0), pair_born.max(initial=0)))))
     np.minimum.at(least, pair_old, faces.gap)
-    return least[pair_born]
+    np.maximum.at(most, pair_old, faces.reference)
+    return least[pair_born], most[pair_born]
 
 
 def matched(old: ContactPoints, new: ContactPoints, body: Ints) -> tuple[Ints, Ints]:

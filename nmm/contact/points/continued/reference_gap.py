@@ -8,7 +8,8 @@ springs are lasting a stretch of two faces that are pressed together already is 
 neighbours. What is found in place of a joint that has slid apart is pressed as the joint was.
 
 The reference recovers without work: when the contact opens, what is left of the overlap becomes the
-new reference, and it never grows again.
+new reference, and it never grows again. Contacts that carry a stress of the ground as they are
+drawn have one above zero until they open: they come apart by what that stress had closed them by.
 """
 
 from collections.abc import Callable
@@ -46,16 +47,18 @@ def counted(
     if len(old) and len(new):
         source, stays = before.source, before.stay(new)
         reference = np.where(stays, _shrunk(new.gap, old.reference[source]), reference)
-        handed = np.flatnonzero(before.known & ~stays & (new.gap < 0))
+        most = np.maximum(old.reference[source], 0.0)
+        handed = np.flatnonzero(before.known & ~stays & (new.gap < most))
         if len(handed):
             giver, taker = old.take(source[handed]), new.take(handed)
             stretch = _passed_on(giver.gap, stiffness(giver) / stiffness(taker))
-            reference[handed] = _from_stretch(taker.gap, stretch)
+            reference[handed] = _from_stretch(taker.gap, stretch, most[handed])
         # A new stretch of lasting springs is not pressed.
-        born = np.flatnonzero(~before.known & on_face & (new.gap < 0) & ~before.lasting)
+        born = np.flatnonzero(~before.known & on_face & ~before.lasting)
         if len(born):
             taker = new.take(born)
-            reference[born] = _from_stretch(taker.gap, beside(taker, old, body))
+            stretch, most = beside(taker, old, body)
+            reference[born] = _from_stretch(taker.gap, stretch, most)
     if len(left):
         # A joint stands for all of its length: stretches beside it were not pressed so far.
         instead = (on_face | ~before.known) & (new.gap < 0) & found_for(left, new, body)
@@ -78,9 +81,13 @@ def _shrunk(gap: Floats, reference: Floats) -> Floats:
     return np.where(gap < reference, reference, np.minimum(gap, 0.0))
 
 
-def _from_stretch(gap: Floats, stretch: Floats) -> Floats:
-    """Reference (m,) with which contacts are stretched by so much, or as far as they overlap."""
-    return np.minimum(gap - np.minimum(stretch, 0.0), 0.0)
+def _from_stretch(gap: Floats, stretch: Floats, most: Floats) -> Floats:
+    """Reference (m,) with which contacts are stretched by so much, or as far as they overlap.
+
+    What is open by less than ``most`` (m,) continues one that carried a stress as it was drawn.
+    """
+    wanted = np.minimum(gap - np.minimum(stretch, 0.0), most)
+    return np.where(gap < most, wanted, np.minimum(gap, 0.0))
 
 
 def _passed_on(stretch: Floats, ratio: Floats) -> Floats:

@@ -1,4 +1,4 @@
-"""Joints in ground under stress carry it as they are drawn, whatever their stiffness."""
+"""Contacts in ground under stress carry it as they are drawn, whatever their stiffness."""
 
 import numpy as np
 import pytest
@@ -19,6 +19,11 @@ def joint(friction, stiffness, more=None):
     return text.interface("joint", friction, more={**springs, **(more or {})})
 
 
+def contact(stiffness, more=None, friction=35.0):
+    """Return a joint of a stiffness (Pa/m), or what only touches."""
+    return text.interface("c", friction) if stiffness is None else joint(friction, stiffness, more)
+
+
 def held(name, start, end, fix):
     return f'[[supports]]\nname = "{name}"\nsegment = {[start, end]}\nfix = {fix}\n'
 
@@ -34,13 +39,19 @@ def moves(found):
 
 
 @pytest.mark.parametrize("enforcement", ["penalty", "cone"])
-@pytest.mark.parametrize("more", [None, BONDED])
+@pytest.mark.parametrize(("stiffness", "more"), [(1e9, None), (1e9, BONDED), (None, None)])
 @pytest.mark.parametrize("cover", [{}, QUADS])
-def test_ground_of_jointed_layers_under_its_weight_does_not_move(cover, more, enforcement):
+def test_ground_of_layers_under_its_weight_does_not_move(cover, stiffness, more, enforcement):
     layers = [text.box(f"layer {y}", (0, y), (2, 1)) for y in range(4)]
     walls = [held(side, [x, 0], [x, 4], ["x"]) for side, x in (("left", 0), ("right", 2))]
     matter = text.material("rock", 1e9, 0.2, WEIGHT / text.G)
-    tables = [matter, joint(40.0, 1e9, more), *layers, *walls, held("base", [0, 0], [2, 0], ["y"])]
+    tables = [
+        matter,
+        contact(stiffness, more),
+        *layers,
+        *walls,
+        held("base", [0, 0], [2, 0], ["y"]),
+    ]
     found = run(
         'plane = "strain"\n[gravity]\n[contact]\n', [*tables, GROUND], enforcement, cover=cover
     )
@@ -64,9 +75,9 @@ def test_the_ends_of_a_joint_share_force_and_moment_of_stress_that_grows_with_de
 
 
 @pytest.mark.parametrize("enforcement", ["penalty", "cone"])
-@pytest.mark.parametrize("more", [None, BONDED])
+@pytest.mark.parametrize(("stiffness", "more"), [(1e10, None), (1e10, BONDED), (None, None)])
 @pytest.mark.parametrize("time", ["", "duration = 0.01\n[inertia]\n"])
-def test_an_inclined_joint_carries_the_traction_of_the_stress(time, more, enforcement):
+def test_an_inclined_face_carries_the_traction_of_the_stress(time, stiffness, more, enforcement):
     angle, stress = np.deg2rad(30.0), np.array([[-1e6, 3e5], [3e5, -2e6]])
     rise = float(0.5 * np.tan(angle))
     low = text.block("low", "rock", [(0, -1), (1, -1), (1, rise), (0, -rise)])
@@ -74,7 +85,7 @@ def test_an_inclined_joint_carries_the_traction_of_the_stress(time, more, enforc
     ring = [[0, -1], [1, -1], [1, rise], [1, 1.5], [0, 1.5], [0, -rise], [0, -1]]
     around = [held(f"edge {i}", *ring[i : i + 2], ["x", "y"]) for i in range(6)]
     laid = '[[initial_stresses]]\nblock = "all"\nstress = [-1e6, -2e6, 3e5]\n'
-    tables = [text.material("rock", 1e9, 0.3), joint(35.0, 1e10, more), low, high, *around, laid]
+    tables = [text.material("rock", 1e9, 0.3), contact(stiffness, more), low, high, *around, laid]
     found = run(f'plane = "strain"\n{time}[contact]\n', tables, enforcement, cover=QUADS)
     assert moves(found) < 1e-10  # of 0.2 mm by which a free joint closes
     normal, way = np.array([-0.5, np.sqrt(0.75)]), np.array([np.sqrt(0.75), 0.5])
@@ -84,7 +95,10 @@ def test_an_inclined_joint_carries_the_traction_of_the_stress(time, more, enforc
 
 
 @pytest.mark.parametrize("enforcement", ["penalty", "cone"])
-def test_a_block_between_walls_is_pulled_out_against_the_friction_of_the_stress(enforcement):
+@pytest.mark.parametrize("stiffness", [1e9, None])
+def test_a_block_between_walls_is_pulled_out_against_the_friction_of_the_stress(
+    stiffness, enforcement
+):
     bodies = [
         text.box("left", (-1, -1), (1, 2)),
         text.box("middle", (0, -0.5), (1, 1)),
@@ -92,7 +106,13 @@ def test_a_block_between_walls_is_pulled_out_against_the_friction_of_the_stress(
     ]
     laid = '[[initial_stresses]]\nblock = "all"\nstress = [-1e6, 0, 0]\n'
     pull = '[[loads]]\nname = "pull"\nkind = "body"\nblock = "middle"\ndensity = [0, 1e6]\n'
-    tables = [text.material("rock", 1e9, 0.0), joint(30.0, 1e9), *bodies, laid, pull]
+    tables = [
+        text.material("rock", 1e9, 0.0),
+        contact(stiffness, friction=30.0),
+        *bodies,
+        laid,
+        pull,
+    ]
     tables += [text.held("left"), text.held("right"), '[loading]\nuntil = "failure"\n']
     found = run('plane = "strain"\n[contact]\n', tables, enforcement)
     # Two faces of 1 m under 1 MPa; joints that closed freely would leave half of it and less.
@@ -120,3 +140,18 @@ def test_a_start_that_is_not_in_balance_books_no_work_for_what_joints_carry():
     found = run('plane = "strain"\n', tables).summary
     assert abs(found.energy_balance) < 1e-9
     assert (found.status, list(found.warnings)) == ("converged", [])
+
+
+@pytest.mark.parametrize("points", ["vertices", "faces"])
+def test_a_block_that_only_touches_two_blocks_below_is_pressed_by_all_of_the_stress(points):
+    below = [text.box(f"below {x}", (x, -1), (1, 1)) for x in range(2)]
+    above = [text.box("block", (0.3, 0), (1.4, 1)), text.box("above", (-1, 1), (4, 1))]
+    laid = '[[initial_stresses]]\nblock = "all"\nstress = [0, -1e6, 0]\n'
+    held = [text.held(name) for name in ("below 0", "below 1", "above")]
+    tables = [text.material("rock", 1e9, 0.2), contact(None), *below, *above, laid, *held]
+    scene = nmm.parse_scene(text.scene('plane = "strain"\n[contact]\n', tables))
+    table = {"contact": {"points": points}}
+    found = nmm.run(scene, nmm.Formulation.model_validate(table))
+    # 1 MPa on 1.4 m above and below; supports of blocks give by 7e-7 m.
+    assert found.contact_forces[:, 0].sum() == pytest.approx(-2.8e6, rel=1e-3)
+    assert moves(found) < 1e-6

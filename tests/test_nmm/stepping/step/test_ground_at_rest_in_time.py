@@ -60,3 +60,23 @@ def test_steps_chosen_by_their_error_do_not_follow_rounding():
     assert jointed.count(joints) == 1
     found = nmm.run(nmm.parse_scene(jointed), nmm.Formulation.model_validate(table)).summary
     assert (found.status, list(found.warnings)) == ("converged", [])
+
+
+@pytest.mark.parametrize("degree", [1, 2])
+def test_a_body_in_balance_stands_still_beside_contact_that_nothing_makes(degree):
+    ring = [[0, 0], [2, 0], [2, 2], [0, 2], [0, 0]]
+    sides = [
+        f'[[supports]]\nname = "{i}"\nsegment = {ring[i : i + 2]}\nfix = ["x", "y"]\n'
+        for i in range(4)
+    ]
+    laid = '[[initial_stresses]]\nblock = "all"\nstress = [-1e6, -2e6, 1e5]\n'
+    matter = [text.material("rock", 1e9, 0.2), text.interface("any", 35.0)]
+    scene = text.scene(
+        'plane = "strain"\nduration = 0.01\n[inertia]\n[contact]\n',
+        [*matter, text.box("body", (0, 0), (2, 2)), laid, *sides],
+    )
+    table = {"cover": {"type": "quads", "size": 0.5, "degree": degree}}
+    found = nmm.run(nmm.parse_scene(scene), nmm.Formulation.model_validate(table))
+    # All that acts is the rounding of stresses that cancel.
+    assert found.summary.status == "converged", found.summary.sentence
+    assert np.abs(found.displacement).max() < 1e-12
