@@ -152,7 +152,7 @@ class HistoryIteration:
         soft = self.softening
         if not some(soft):
             return float(rubbed.sum())
-        before = self.start.take(soft)
+        before = self._within_strength(soft)
         ended = {name: getattr(answer, name)[soft] for name in ENDED}
         after = replace(self.contacts.take(soft), **ended)
         normal = (before.normal_force + after.normal_force) / 2
@@ -161,6 +161,21 @@ class HistoryIteration:
         work = normal @ (after.gap - before.gap) + shear @ slipped
         stored = self._laws.energy(after) - self._laws.energy(before)
         return float(rubbed[~soft].sum() + work - stored)
+
+    def _within_strength(self, soft: Bools) -> ContactPoints:
+        """Return softening bonds as they begin the step, with the forces of their stretch.
+
+        Those that were laid just now have taken none yet, and may be stretched beyond their
+        strength: what is beyond it was freed as they were laid, and softening has not taken it.
+        """
+        start, limits = self.start.take(soft), self.before.limits
+        share = np.where(start.gap > 0, self.before.open_share[soft], 1.0)
+        stiff, shear = share * self.springs[0][soft], self.springs[1][soft]
+        pull = np.minimum(stiff * start.gap, limits.tension[soft])
+        bound = limits.cohesion[soft] + limits.friction[soft] * np.maximum(-pull, 0.0)
+        along = np.clip(shear * start.slip, -bound, bound)
+        jump = {"gap": pull / stiff, "slip": along / shear}
+        return replace(start, normal_force=pull, shear_force=along, **jump)
 
     def _mean_share(self, answer: StepAnswer) -> Floats:
         """Mean shear force (m,) of a step of statics over that at its end, where contacts slide."""

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 # Cells that must be left of a ligament: with a fifth to a third of one loads are 20 to 35 % too
 # large.
-SHORT = 0.5
+SHORT = 1.0
 
 
 class CrackGrowth(GrowingCracks):

@@ -210,7 +210,12 @@ class _Following:
                 after = self._accepted(at, found.attempt, 0.0, jump=True)
                 return no_balance(at, after) if isinstance(after, Attempt) else after
             brittle, _ = trials.give_way(found.attempt)
-            at = replace(at, softened=not brittle, events=at.events + 1)
+            at = replace(
+                at,
+                softened=not brittle,
+                events=at.events + 1,
+                changed=at.changed and not brittle,
+            )
 
     def _accepted(
         self, at: OnPath, attempt: Attempt, way: float, jump: bool = False
@@ -249,13 +254,16 @@ class _Following:
         recorder, time = self.recorder, at.state.time + 1.0
         later, state = replace(attempt.state, time=time), replace(state, time=time)
         attempt = replace(attempt, state=later)
+        anew = jump and at.changed
         if (jump or self.control.by_load) and attempt.solved is not None:
             lost = self._released(at.state, later)
+            if anew:  # where new faces leave more stored, functions of a tip went: no loss
+                lost = max(lost, attempt.solved.loss, 0.0)
             attempt = replace(attempt, solved=replace(attempt.solved, loss=lost))
         elif attempt.solved is not None:
             lost = attempt.solved.loss + at.shed
             attempt = replace(attempt, solved=replace(attempt.solved, loss=lost))
-        said = recorder.step(at.state, attempt, contacts)
+        said = recorder.step(at.state, attempt, contacts, anew=anew)
         recorder.offer(state, "load", contacts)
         factor = state.load_factor
         self.progress(

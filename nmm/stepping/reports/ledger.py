@@ -88,9 +88,18 @@ class Ledger:
     last: Account = field(default_factory=Account)
 
     def booked(
-        self, plan: "Plan", model: "Model", before: State, attempt: Attempt, stands: State
+        self,
+        plan: "Plan",
+        model: "Model",
+        before: State,
+        attempt: Attempt,
+        stands: State,
+        anew: bool = False,
     ) -> "Ledger":
-        """Return the totals with an accepted step; ``stands`` is its end as blocks are laid now."""
+        """Return the totals with an accepted step; ``stands`` is its end as blocks are laid now.
+
+        All that a step which only finds the balance ``anew`` makes or sheds is the change's.
+        """
         after = attempt.state
         earlier = self.energies if self.steps else untouched(plan, model, before)
         loss = 0.0 if attempt.solved is None else attempt.solved.loss
@@ -111,7 +120,8 @@ class Ledger:
             settling=False,
         )
         if self.settling and plan.inertia is None:
-            found = found._changed_by(min(found._made - self._made, 0.0), self.cause)
+            made = found._made - self._made
+            found = found._changed_by(made if anew else min(made, 0.0), self.cause)
         if attempt.booked is not None:
             found = found._lost_in_time(attempt.booked, earlier, loss)
         return found.weighed(after.time, audited=attempt.booked is not None)

@@ -73,12 +73,14 @@ class Recorder:
         attempt: Attempt,
         contacts: "ContactPoints | None",
         stands: State | None = None,
+        anew: bool = False,
     ) -> str:
         """Record an accepted step in the history; say its passes and the states of contacts.
 
-        ``stands`` is its end where blocks are laid anew after each step.
+        ``stands`` is its end where blocks are laid anew after each step. With ``anew`` it only
+        finds the balance after a change of what is solved.
         """
-        self._book(before, attempt, stands)
+        self._book(before, attempt, stands, anew)
         row = self._row(before, attempt, contacts)
         declared, after = self.declared, attempt.state
         self.sink.row(row | declared.row(self.stepper.plan, lambda: self.view(after, contacts)))
@@ -86,10 +88,11 @@ class Recorder:
         noun = "pass" if attempt.passes == 1 else "passes"
         return f"{attempt.passes} {noun}, contacts: {', '.join(held)}" if held else ""
 
-    def _book(self, before: State, attempt: Attempt, stands: State | None) -> None:
+    def _book(self, before: State, attempt: Attempt, stands: State | None, anew: bool) -> None:
         """Count an accepted step and what it did to the energies."""
         plan, after, totals = self.stepper.plan, attempt.state, self.totals
-        ledger = self.ledger.booked(plan, self.stepper.model, before, attempt, stands or after)
+        step = before, attempt, stands or after
+        ledger = self.ledger.booked(plan, self.stepper.model, *step, anew=anew)
         if plan.fracture is not None:
             more = plan.fracture.arrived(after.load_factor, ledger.in_store)
             ledger = ledger.along(more, plan.fracture.name)
