@@ -53,7 +53,8 @@ class Effect(ABC):
     """Whether its forces may change the momentum of all bodies together; false where they come in
     pairs, and for gravity, whose impulse audits know."""
     on_paths: ClassVar[bool] = False
-    """Whether paths past the peak may go on through the changes that it asks for."""
+    """Whether paths past the peak may go on through the changes that it asks for, and count its
+    force through their steps, whatever their load factor is."""
     stays: ClassVar[bool] = False
     """Whether it goes on in stages whose scene no longer names it."""
 

@@ -43,7 +43,7 @@ def newton(
     """
     step, outs = begin, [begin.residual]
     for count in range(1, (PATIENT_ITERATIONS if patient else ITERATIONS) + 1):
-        factor = solver.unsymmetric().factorise(problem.tangent(step.contacts))
+        factor = solver.unsymmetric().factorise(problem.tangent(step))
         along = factor.solve(path.load)
         # What is left is rounding in the end, which dependent functions cannot follow: the balance
         # of the iterate judges it.

@@ -16,6 +16,8 @@ ROUNDED = 1e-8
 
 # From gaps and slips (m,) to forces.
 Law = Callable[[Floats, Floats], ContactForces]
+# From an increment (n,) to the force (n,) that it meets beyond the matrix, and its slope.
+Bent = Callable[[Floats], tuple[Floats, Callable[[], csc_array]]]
 
 
 @dataclass(frozen=True)
@@ -40,6 +42,8 @@ class PathStep:
         Residual of the path equation over its target.
     iterations
         Linear systems solved.
+    slope
+        Makes the matrix (n, n) of what bends beyond the line; None where nothing does.
     """
 
     increment: Floats
@@ -51,6 +55,7 @@ class PathStep:
     residual: float
     short: float = 0.0
     iterations: int = 0
+    slope: Callable[[], csc_array] | None = None
 
     @property
     def converged(self) -> bool:
@@ -81,6 +86,8 @@ class PathProblem:
         Force (N) that residuals are relative to, or those of contacts and load if they are larger.
     rounding
         Contact force (N) due to rounded coordinates; a smaller residual counts as none.
+    bent
+        Other nonlinear forces of the step; None without any.
     """
 
     matrix: csc_array
@@ -91,6 +98,7 @@ class PathProblem:
     law: Law
     scale: float
     rounding: float = 0.0
+    bent: Bent | None = None
 
     def at(self, path: PathEquation, increment: Floats, change: float) -> PathStep:
         """Return the iterate at an increment (n,) and a change of the load factor."""
@@ -98,24 +106,28 @@ class PathProblem:
         slip = self.slip + self.rows.tangent @ increment
         contacts = self.law(gap, slip)
         inner = self.matrix @ increment + self.rows.push(*contacts.force.T)
+        beyond, slope = (0.0, None) if self.bent is None else self.bent(increment)
+        inner = inner + beyond
         rest = np.asarray(self.force + change * path.load - inner)
         pushed = float(np.linalg.norm(self.rows.push(*np.abs(contacts.force.T))))
         size = max(self.scale, pushed, abs(change) * float(np.linalg.norm(path.load)))
         out = float(np.linalg.norm(rest))
         residual = out / (size or 1.0) if out > self.rounding else 0.0
         short = abs(path.left(increment, change)) / (abs(path.target) or 1.0)
-        return PathStep(increment, change, contacts, gap, slip, rest, residual, short)
+        found = PathStep(increment, change, contacts, gap, slip, rest, residual, short)
+        return replace(found, slope=slope)
 
-    def tangent(self, contacts: ContactForces) -> csc_array:
+    def tangent(self, step: PathStep) -> csc_array:
         """Return the matrix (n, n) by which forces answer a further increment."""
-        normal, tangent, slope = self.rows.normal, self.rows.tangent, contacts.tangent
+        normal, tangent, slope = self.rows.normal, self.rows.tangent, step.contacts.tangent
+        matrix = self.matrix if step.slope is None else csc_array(self.matrix + step.slope())
         if not len(slope):
-            return self.matrix
+            return matrix
         parts = [
             diags_array(slope[:, one, 0]) @ normal + diags_array(slope[:, one, 1]) @ tangent
             for one in (0, 1)
         ]
-        return csc_array(self.matrix + vstack([normal, tangent]).T @ vstack(parts))
+        return csc_array(matrix + vstack([normal, tangent]).T @ vstack(parts))
 
     def short_of(self, force: Floats) -> "PathProblem":
         """Return the problem without a part of its force (n,)."""

@@ -10,7 +10,7 @@ from integration.arrays import Bools, Floats
 from nmm.assembly.motion import State
 from nmm.contact.bonds.tied_step import TiedBonds
 from nmm.contact.following.by_parts import follow
-from nmm.contact.following.path_problem import PathProblem, PathStep
+from nmm.contact.following.path_problem import Bent, PathProblem, PathStep
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.history_iteration import HistoryIteration
 from nmm.contact.laws.tractions import ContactForces, contact_forces
@@ -63,6 +63,7 @@ class PosedPath:
         state: State,
         request: StepRequest,
         joints: ContactPoints,
+        bent: Bent | None = None,
     ) -> Self:
         """Pose them.
 
@@ -76,6 +77,8 @@ class PosedPath:
             Matrix and force of all but contacts.
         joints
             All of the scene as they stand: until one softens limits are judged by others.
+        bent
+            What else bends within a step; None if nothing does.
         """
         rows, bonds = steps.geometry.rows(contacts, state), steps.bonds
         tied = bonds.tied(contacts, state, rows, request.weight, request.time)
@@ -84,6 +87,7 @@ class PosedPath:
         if tied is not None:
             free[tied.index] = False
         problem = _problem(steps.laws, *posed, free, tied, bonds.unsoftened(contacts, joints))
+        problem = replace(problem, bent=bent)
         return cls(steps.laws, problem, *posed[:2], free, tied, mixed, contacts)
 
     def solved(self, path: PathEquation, solver: LinearSolver) -> tuple[ContactSolution, float]:

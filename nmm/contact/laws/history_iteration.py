@@ -174,8 +174,8 @@ class HistoryIteration:
         pull = np.minimum(stiff * start.gap, limits.tension[soft])
         bound = limits.cohesion[soft] + limits.friction[soft] * np.maximum(-pull, 0.0)
         along = np.clip(shear * start.slip, -bound, bound)
-        jump = {"gap": pull / stiff, "slip": along / shear}
-        return replace(start, normal_force=pull, shear_force=along, **jump)
+        gap, slip = pull / stiff, along / shear
+        return replace(start, normal_force=pull, shear_force=along, gap=gap, slip=slip)
 
     def _mean_share(self, answer: StepAnswer) -> Floats:
         """Mean shear force (m,) of a step of statics over that at its end, where contacts slide."""

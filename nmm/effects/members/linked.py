@@ -28,6 +28,8 @@ ALIKE = 1e-6
 class Linked(Effect):
     """Members that pull their ends together by laws of the stretch between them."""
 
+    on_paths = True
+
     def __init__(self, setup: Setup, members: Members) -> None:
         self.members = members
         self.external = members.links.grounded

@@ -283,4 +283,5 @@ class _Following:
         """Energy (J) that is neither stored nor work: motion in which bonds broke."""
         plan, model, ledger = self.stepper.plan, self.stepper.model, self.recorder.ledger
         first = sum(ledger.energies.values()) if ledger.steps else 0.0
-        return plan.work(before, after) - sum(stored(plan, model, after).values()) + first
+        taken = sum(stored(plan, model, after).values()) + sum(plan.losses(before, after).values())
+        return plan.work(before, after) - taken + first

@@ -72,7 +72,12 @@ def _jumped(nearest: Tried, low: Tried, high: Tried) -> Tried:
 
 
 def _crossing(low: Tried, high: Tried, counts: list[float]) -> float:
-    """Return how far the first bond is at its limit, if loads go in straight lines."""
+    """Return how far the first bond is at its limit, if loads go in straight lines.
+
+    Half way where one is infinite, as of a bond that shear would break under any such pull.
+    """
+    if not np.isfinite(high.load):
+        return (low.way + high.way) / 2
     over = high.each > 1
     below, above = counts[0] * (1 - low.each[over]), counts[1] * (high.each[over] - 1)
     share = float((below / (below + above)).min())

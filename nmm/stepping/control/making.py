@@ -48,8 +48,8 @@ def hindrances(stepper: "Stepper", formulation: "Formulation") -> list[tuple[str
         faults.append(("a scene without contact", "expected [contact]"))
     if stepper.model.matter is not None:
         faults.append((stepper.model.bent, ELASTIC))
-    if plan.bent:
-        which = f"forces of {', '.join(plan.bent)} that are not linear"
+    if lost := [name for name, effect in plan.bent.items() if not effect.on_paths]:
+        which = f"forces of {', '.join(lost)} that are not linear"
         faults.append((which, "leave them out, or let the load grow without [loading.control]"))
     if make_enforcement(formulation.contact.enforcement, dict(formulation.contact.options)).exact:
         what = f'[contact] enforcement: "{formulation.contact.enforcement}"'

@@ -4,14 +4,19 @@ The next event on a path is sought by a handful of steps from one state: what th
 once.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING
 
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats
 from nmm.assembly.motion import State
 from nmm.contact.detection.tolerances import FURTHER
 from nmm.contact.following.path_solution import PosedPath
 from nmm.contact.solution.request import StepRequest
-from nmm.effects.base import Instant
+from nmm.effects.base import Instant, Span
 from nmm.solvers.linear import LinearSolver
 from nmm.stepping.step.contact_search import ContactSearch
 from nmm.stepping.step.equations import Equations
@@ -21,6 +26,7 @@ from nmm.stepping.step.trial import Attempt
 if TYPE_CHECKING:
     from nmm.contact.solution.record import ContactRecord
     from nmm.controls.path_equation import PathEquation
+    from nmm.stepping.step.nonlinear.effect_forces import EffectForces
 
 # Solutions of a step along a path, each with contacts sought further.
 PATH_SOLUTIONS = 4
@@ -60,6 +66,9 @@ class PathSteps:
                 break
             reach = FURTHER * result.motion
         verdict = solved.answer.verdict
+        if posed.effects is not None:
+            memory = posed.effects.at(solved.answer.increment, None)[1]
+            result = replace(result, state=replace(result.state, memory=memory))
         return result.told(verdict.converged, verdict.sentence, solved, solved.passes)
 
     def _posed(self, solver: LinearSolver, equations: Equations, reach: float) -> "_Posed":
@@ -70,19 +79,38 @@ class PathSteps:
         contacts = self._search.candidates(state, reach, None)
         request = StepRequest(equations.matrix, equations.force, solver, time=equations.end.time)
         joints = contact.record.book.points
-        posed = PosedPath.of(contact.steps, contacts, state, request, joints)
-        self._last = _Posed(state, contact.record, reach, posed)
+        effects = self._effects(equations)
+        bent = None if effects is None else partial(_beyond, effects)
+        posed = PosedPath.of(contact.steps, contacts, state, request, joints, bent)
+        self._last = _Posed(state, contact.record, reach, posed, effects)
         return self._last
+
+    def _effects(self, equations: Equations) -> "EffectForces | None":
+        """Return the forces of effects that bend within a step from a state; None without any."""
+        current, kinematics = self._mover.current, self._mover.kinematics
+        if not current.plan.bent:
+            return None
+        from nmm.stepping.step.nonlinear.effect_forces import EffectForces
+
+        span = Span(None, 1.0, half=False)
+        return EffectForces(current, equations.state, equations.end, span, kinematics, False)
+
+
+def _beyond(effects: "EffectForces", increment: Floats) -> tuple[Floats, Callable[[], csc_array]]:
+    """Return what effects resist an increment (n,) with beyond their lines, and its slope."""
+    part, _ = effects.at(increment, None)
+    return part.force, part.make
 
 
 @dataclass(frozen=True)
 class _Posed:
-    """Contact as posed from a state and what is known of it, sought up to a reach (m)."""
+    """Contact and bent effects as posed from a state, contact sought up to a reach (m)."""
 
     state: State
     record: "ContactRecord"
     reach: float
     contact: PosedPath
+    effects: "EffectForces | None"
 
     def serves(self, state: State, record: "ContactRecord", reach: float) -> bool:
         """Whether it is that of another step."""

@@ -28,12 +28,14 @@ class Mover:
 
     Parameters
     ----------
+    current
+        What is solved.
     kinematics
         How bodies move.
 
     Attributes
     ----------
-    kinematics
+    current, kinematics
         The same.
     vertices
         The elements' vertices, which are followed.
@@ -42,10 +44,10 @@ class Mover:
     def __init__(
         self, current: Current, solver: LinearSolver, kinematics: Kinematics, clock: Clock
     ) -> None:
-        self._current, self.solver, self._clock = current, solver, clock
+        self.current, self.solver, self._clock = current, solver, clock
         self.kinematics = kinematics
         self._masses: tuple[csc_array, Ints, Factor] | None = None
-        self._follow(self._current.model)
+        self._follow(self.current.model)
 
     def follow(self, change: "Change") -> None:
         """Follow the vertices of the new model."""
@@ -75,7 +77,7 @@ class Mover:
         return self._places.of(state)
 
     def _placed(self, state: State) -> Floats:
-        contact = self._current.plan.contact
+        contact = self.current.plan.contact
         if contact is not None and contact.partners.sides.whole:
             # The same points, which contact is requested too.
             return contact.partners.surface(state).start
@@ -84,9 +86,9 @@ class Mover:
     def moved(self, state: State, increment: Floats) -> State:
         """Return a state moved by ``increment`` (n,), by compiled code where bodies may touch."""
         move, frames = self.kinematics.move, state.frames
-        if move is plainly and self._current.plan.contact is not None and frames.way is not None:
+        if move is plainly and self.current.plan.contact is not None and frames.way is not None:
             from nmm.assembly.moved_bodies import move
-        return move(self._current.model, state, increment)
+        return move(self.current.model, state, increment)
 
     def _faster(self, equations: Equations, increment: Floats, push: Floats | None) -> State:
         """Return the state at the start with the rates of the end."""
@@ -107,7 +109,7 @@ class Mover:
         The force is what was left of the others, rounding among it. Where functions are dependent
         that part has no acceleration, which says nothing: the solution is not judged.
         """
-        inertia = self._current.plan.inertia
+        inertia = self.current.plan.inertia
         assert inertia is not None
         mass = inertia.mass
         if self._masses is None or self._masses[0] is not mass:

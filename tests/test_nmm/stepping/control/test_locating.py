@@ -12,6 +12,7 @@ CURVES = {
     "straight": lambda way: np.array([0.3 * way, 0.5 * way]),
     "bent": lambda way: np.array([0.2 * way**2, 0.1 * (np.exp(way) - 1)]),
     "kinked": lambda way: np.array([0.4 * way, max(0.1 * way, 4 * way - 8)]),
+    "endless": lambda way: np.array([0.4 * way if way < 4 else np.inf]),
     "overtaken": lambda way: np.array([1.2 - 0.3 / (0.5 + way), 0.05 * way**3, -way]),
 }
 
