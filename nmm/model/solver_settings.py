@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 REFINEMENTS = 20
 # Unknowns times steps, each with a matrix of its own, from which on compiled factorisations pay the
 # 0.4 s that a start with the compiler takes longer: SuperLU takes 2 to 10 us an unknown more.
-WORTH_COMPILER = 150_000
+WORTH_COMPILER = 100_000
 
 
 def solver_of_run(setup: "Setup", manifold: "Manifold", contact: bool) -> LinearSolver:
