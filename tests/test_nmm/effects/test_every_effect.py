@@ -1,10 +1,15 @@
 """Effects: force, matrix, work and energy of each fit each other, on blocks and on meshes."""
 
+import tomllib
+
 import pytest
 
 import nmm
+from nmm.formulation import Formulation
+from nmm.scene import build_scene
 from nmm.testing import check_effect_of
 from nmm.testing.outputs import TWO_BLOCKS
+from nmm.verification.hard.spoilt.mutations import sound_files
 
 LOADS = """
 [[loads]]
@@ -45,3 +50,23 @@ def test_an_effect_on_meshes_keeps_what_every_one_promises(name, cover):
 def test_glue_of_sub_blocks_keeps_what_every_effect_promises():
     text = TWO_BLOCKS + "[formulation.cover]\ntype = 'sub_blocks'\nsize = 0.5\n"
     check_effect_of(nmm.parse_scene(text), "artificial joints")
+
+
+# Effects that scenes of many tables name, each with the scene that it is checked in.
+IN_SCENES = [
+    ("dynamic", "initial velocity"),
+    ("dynamic", "contact"),
+    ("growing", "fracture"),
+    ("members", "inertia"),
+    ("members", "dashpots"),
+    ("rolled over", "moving loads"),
+    ("shaken", "damping against the ground"),
+    ("splitting", "splitting"),
+    ("zones", "cohesive zones"),
+]
+
+
+@pytest.mark.parametrize(("scene", "name"), IN_SCENES)
+def test_an_effect_of_a_whole_scene_keeps_what_every_one_promises(scene, name):
+    made = build_scene(tomllib.loads(sound_files()[scene][1]), scene)
+    check_effect_of(made, name, made.formulation or Formulation())

@@ -4,8 +4,11 @@ import numpy as np
 import pytest
 
 import nmm
+from nmm.controls.base import CONTROLS
 from nmm.scene import parse_scene
+from nmm.testing import check_control
 from nmm.testing.resumed.stopping import check_goes_on
+from nmm.verification.problems.past_the_peak.lever import Lever
 from nmm.verification.problems.past_the_peak.links import bundle, pull
 from nmm.verification.problems.past_the_peak.softening_bar import (
     AREA,
@@ -62,10 +65,22 @@ def test_a_brittle_bar_is_followed_back_to_nothing_under_no_control_of_its_own()
     assert way[peak] == pytest.approx(1e-4, rel=2e-2)
 
 
-def test_a_control_of_the_example_keeps_what_every_control_keeps():
-    from nmm.testing import check_control
+# Twice as long as a bar that just does not snap back.
+BAR = 4 * MODULUS * ENERGY / STRENGTH**2
+MOVED = 'type = "displacement"\nmonitors = ["end"]\nincrement = "50 um"\nend = "0.2 mm"\n'
+TAKEN = ENERGY * AREA
+DISSIPATED = f'type = "dissipation"\nenergy = {TAKEN / 10!r}\nend_energy = {0.95 * TAKEN!r}\n'
+CONTROLLED = {
+    "opening": lambda: nmm.read_scene("examples/snap_back/bar.toml"),
+    "displacement": lambda: parse_scene(softening_bar(1.0, None, MOVED)),
+    "dissipation": lambda: parse_scene(softening_bar(BAR, ENERGY, DISSIPATED)),
+    "events": lambda: parse_scene(Lever().scene()),
+}
 
-    check_control(nmm.read_scene("examples/snap_back/bar.toml"))
+
+@pytest.mark.parametrize("name", CONTROLS.table)
+def test_every_control_keeps_what_controls_promise(name):
+    check_control(CONTROLLED[name]())
 
 
 @pytest.mark.parametrize(
