@@ -80,3 +80,7 @@ class KeptOfArray(Generic[T]):
         if self._known is None or self._known[0] is not array:
             self._known = array, self._make(array)
         return self._known[1]
+
+    def forget(self) -> None:
+        """Keep nothing."""
+        self._known = None

@@ -17,6 +17,7 @@ from nmm.assembly.kept import KeptOfArray
 from nmm.assembly.stress_points import StressPoints, nearest
 from nmm.errors import FormulationError
 from nmm.materials.base import History, Law, Response
+from nmm.solvers.unchecked import product
 
 STRESS = "stress"
 """Stress (Q, 3) of the last accepted step, in body axes (Pa), beyond the initial stress."""
@@ -149,18 +150,32 @@ class Matter:
         """
         strain, initial = self.points.strain(deformation), history.get(INITIAL)
         whole = strain if initial is None else strain + initial
-        stress, tangent = np.empty_like(strain), np.empty((len(strain), 3, 3))
-        # All but the stress, which is given anew.
-        after = {name: history[name].copy() for name in history if name not in (INITIAL, STRESS)}
-        for law, at in self._points:
-            given = whole[at], self._own(law, history, at), self.plane, step
-            stress[at], tangent[at], left = law.update(*given)
-            for name, value in left.items():
-                after[name][at, : value.shape[1]] = value
+        answers = [
+            law.update(whole[at], self._own(law, history, at), self.plane, step)
+            for law, at in self._points
+        ]
+        stress, tangent, after = self._together(answers, history)
         if initial is not None:
             stress, after[INITIAL] = stress - self._initial(initial), initial
         after[STRESS] = stress
         return Response(stress, tangent, after)
+
+    def _together(
+        self, answers: Sequence[Response], history: History
+    ) -> tuple[Floats, Floats, dict[str, Floats]]:
+        """Return stress, tangents and variables of all points; ``history`` is that before."""
+        if len(answers) == 1:
+            stress, tangent, left = answers[0]
+            after = {name: np.ascontiguousarray(value) for name, value in left.items()}
+            return np.array(stress, dtype=float), np.asarray(tangent), {**history, **after}
+        n = len(self.law)
+        stress, tangent = np.empty((n, 3)), np.empty((n, 3, 3))
+        # All but the stress, which is given anew.
+        after = {name: history[name].copy() for name in history if name not in (INITIAL, STRESS)}
+        for (_, at), (stress[at], tangent[at], left) in zip(self._points, answers, strict=True):
+            for name, value in left.items():
+                after[name][at, : value.shape[1]] = value
+        return stress, tangent, after
 
     def at_rest(self, history: History) -> Response | None:
         """Return the answer to a step without strain; None where laws must be asked for it."""
@@ -181,7 +196,7 @@ class Matter:
 
     def force(self, deformation: Floats, stress: Floats) -> Floats:
         """Return the internal force (n,) of unknowns (n,) and of the stress (Q, 3) of points."""
-        return self.rest @ deformation + self._summed.of(stress)
+        return product(self.rest, deformation) + self._summed.of(stress)
 
     @cached_property
     def _summed(self) -> KeptOfArray[Floats]:
@@ -200,11 +215,14 @@ class Matter:
         """
         if tangent is self.elastic:
             return self.elastic_stiffness
+        # One tangent of all points of one law is compared once.
+        one = tangent[:1] if len(self.laws) == 1 and not tangent.strides[0] else tangent
         if symmetric:
-            tangent = (tangent + np.swapaxes(tangent, 1, 2)) / 2
-        if np.abs(tangent - self.elastic).max() <= ROUNDED_TANGENT * np.abs(self.elastic).max():
+            one = (one + np.swapaxes(one, 1, 2)) / 2
+        elastic = self.elastic[: len(one)]
+        if np.abs(one - elastic).max() <= ROUNDED_TANGENT * np.abs(elastic).max():
             return self.elastic_stiffness
-        return self._stiffness(tangent, symmetric)
+        return self._stiffness(np.broadcast_to(one, tangent.shape), symmetric)
 
     @cached_property
     def elastic_stiffness(self) -> csc_array:
@@ -226,7 +244,7 @@ class Matter:
             strain = self.points.strain(deformation) + initial / 2
             density -= (self._initial(initial) * strain).sum(axis=1)
         stored = self.thickness * float(self.points.rule.weights @ density)
-        return stored + float(deformation @ (self.rest @ deformation)) / 2
+        return stored + float(deformation @ product(self.rest, deformation)) / 2
 
     def swollen(self, before: History, after: History) -> float:
         """Return the work (J) of the stress on what swells in a step, by the mean of both ends."""

@@ -94,6 +94,17 @@ class Model(ElasticSolid):
             return 'finite strain ([rotation] update: "finite")'
         return "a material that is not linear"
 
+    @property
+    def elastic_stiffness(self) -> csc_array:
+        """Stiffness (n_unknowns, n_unknowns) of matter to which nothing has happened."""
+        return self.stiffness if self.matter is None else self.matter.elastic_stiffness
+
+    @cached_property
+    def force_scale(self) -> Floats:
+        """(n_unknowns,) factors by which forces on unknowns of all kinds compare."""
+        diagonal = self.elastic_stiffness.diagonal()
+        return np.asarray(1 / np.sqrt(np.where(diagonal > 0, diagonal, np.inf)))
+
     def history(self) -> History:
         """Return the internal variables of matter that nothing has happened to, (Q, h) by name."""
         return {} if self.matter is None else self.matter.start()

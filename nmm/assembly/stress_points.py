@@ -2,10 +2,11 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Self
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, csr_array
 
 from covers.approximation.groups.element_group import ElementGroup
 from covers.approximation.manifold import Manifold
@@ -13,6 +14,7 @@ from integration.arrays import Bools, Floats, Ints
 from integration.permutations import inverse
 from integration.rules import PointRule
 from nmm.assembly.elements.blocks import Part, assemble
+from nmm.solvers.unchecked import made_of, product
 
 StressAt = Callable[[Ints, Floats, float], Floats]
 """Stress (m, 3) in Pa in body axes from elements, their reference points (m, 2) and a time (s)."""
@@ -106,22 +108,35 @@ class StressPoints:
 
     def strain(self, deformation: Floats) -> Floats:
         """Strain (Q, c) of the unknowns (n,)."""
-        found = np.empty((len(self), self.width))
-        for part in self.batches:
-            local = deformation[part.unknowns][:, None, :, None]
-            found[part.at] = (part.rows @ local)[..., 0]
-        return found
+        return product(self._rows, deformation).reshape(len(self), self.width)
 
     def force(self, stress: Floats) -> Floats:
         """Integral of ``B^T sigma`` (n,) of a stress (Q, c), per unit thickness."""
-        n = int(self.offset[-1])
-        weighted, total = self.rule.weights[:, None] * stress, np.zeros(n)
+        weighted = self.rule.weights[:, None] * stress
+        return product(self._columns, weighted.ravel())
+
+    @cached_property
+    def _rows(self) -> csr_array:
+        """``B`` (Q c, n): a twelfth of the time of small products, element by element."""
+        width, row, column, value = self.width, [], [], []
         for part in self.batches:
-            k, q, width, length = part.rows.shape
-            rows = part.rows.reshape(k, width * q, length)
-            local = weighted[part.at].reshape(k, 1, width * q) @ rows
-            total += np.bincount(part.unknowns.ravel(), local.ravel(), minlength=n)
-        return total
+            shape, at = part.rows.shape, width * part.at[:, :, None] + np.arange(width)
+            row.append(np.broadcast_to(at[..., None], shape).ravel())
+            column.append(np.broadcast_to(part.unknowns[:, None, None], shape).ravel())
+            value.append(part.rows.ravel())
+        shape = width * len(self), int(self.offset[-1])
+        if not value:
+            return csr_array(shape)
+        places = np.concatenate(row), np.concatenate(column)
+        found = csr_array((np.concatenate(value), places), shape=shape)
+        found.eliminate_zeros()
+        return found
+
+    @cached_property
+    def _columns(self) -> csc_array:
+        """``B^T`` (n, Q c), of the same numbers."""
+        rows = self._rows
+        return made_of(csc_array, rows.data, rows.indices, rows.indptr, rows.shape[::-1])
 
     def matrix(self, tangent: Floats, symmetric: bool = True) -> csc_array:
         """Integral of ``B^T D B`` (n, n) of tangents (Q, c, c), per unit thickness."""

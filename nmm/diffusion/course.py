@@ -154,6 +154,8 @@ class Course:
         exchanged, room = last.exchanged, None
         if taken_in is not None and last.taken_in is not None:
             room = taken_in - last.taken_in
+        if room is None and problem.rests(unknowns):
+            return replace(last, time=time)
         for begin, end, theta in self._steps(last.time, time):  # steps in time
             after = problem.stepped(unknowns, begin, end, theta, room)
             for share, field, at in ((1 - theta, unknowns, begin), (theta, after, end)):

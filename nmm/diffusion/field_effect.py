@@ -13,6 +13,7 @@ from scipy.sparse import csr_array
 
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats, Ints
+from nmm.assembly.kept import KeptOfArray
 from nmm.assembly.motion import State
 from nmm.diffusion.carried_field import carried_field
 from nmm.diffusion.course import Course, FieldAt
@@ -138,10 +139,18 @@ class FieldEffect(Effect):
 
     def flux(self, state: State) -> Floats:
         """Mean flux (E, 2) of the elements in global axes."""
-        field = self.here(state.time).unknowns
-        slopes = np.stack([rows @ field for rows in self._slopes], axis=1)
-        body = self.space.manifold.element_body
-        return state.frames.to_global(body, -self._conductivity[:, None] * slopes)
+        own = self._own_flux.of(self.here(state.time).unknowns)
+        return state.frames.to_global(self.space.manifold.element_body, own)
+
+    @cached_property
+    def _own_flux(self) -> KeptOfArray[Floats]:
+        """Mean flux (E, 2) of the elements in the axes of their bodies."""
+
+        def made(field: Floats) -> Floats:
+            slopes = np.stack([rows @ field for rows in self._slopes], axis=1)
+            return np.asarray(-self._conductivity[:, None] * slopes)
+
+        return KeptOfArray(made)
 
     @cached_property
     def _slopes(self) -> tuple[csr_array, csr_array]:
@@ -169,6 +178,7 @@ class FieldEffect(Effect):
     def forget(self) -> None:
         """See `Effect.forget`."""
         self.course.problem.forget()
+        self._own_flux.forget()
         if self.stress is not None:
             self.stress.forget()
 

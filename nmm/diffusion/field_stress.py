@@ -12,6 +12,7 @@ from scipy.sparse import csr_array
 
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats, Ints
+from nmm.assembly.kept import KeptOfArray
 from nmm.assembly.model import Model
 from nmm.diffusion.matrices import element_means, stress_coupling
 
@@ -38,13 +39,28 @@ class FieldStress:
         """(n_unknowns, n) force (N) of the field's unknowns, in body axes."""
         return stress_coupling(self.space, self.model.thickness * self.stress)
 
+    @cached_property
+    def room(self) -> csr_array:
+        """(n, n_unknowns) what the motion of the blocks makes room for: ``coupling`` transposed."""
+        return csr_array(self.coupling.T)
+
     def force(self, unknowns: Floats) -> Floats:
         """Force (n_unknowns,) of a field (n,), in body axes (N)."""
-        return np.asarray(self.coupling @ unknowns)
+        return self._force.of(unknowns)
+
+    @cached_property
+    def _force(self) -> KeptOfArray[Floats]:
+        return KeptOfArray(lambda unknowns: np.asarray(self.coupling @ unknowns))
 
     def mean(self, unknowns: Floats) -> Floats:
         """Stress (E, 3) in body axes that it adds, mean of the elements (Pa)."""
-        return np.asarray(-(self._means @ unknowns)[:, None] * self.stress)
+        return self._mean.of(unknowns)
+
+    @cached_property
+    def _mean(self) -> KeptOfArray[Floats]:
+        return KeptOfArray(
+            lambda unknowns: np.asarray(-(self._means @ unknowns)[:, None] * self.stress)
+        )
 
     def at(self, unknowns: Floats, elements: Ints, points: Floats) -> Floats:
         """Stress (m, 3) in body axes that it adds at reference points (Pa)."""
@@ -54,6 +70,8 @@ class FieldStress:
     def forget(self) -> None:
         """Drop what is kept for speed."""
         self._kept.clear()
+        for kept in (self._force, self._mean):
+            kept.forget()
 
     @cached_property
     def _means(self) -> csr_array:

@@ -19,13 +19,16 @@ from scipy.sparse import csc_array
 from covers.approximation.manifold import Manifold
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Bools, Floats
+from nmm.assembly.kept import KeptOfArray
 from nmm.diffusion.edges import Edge, Factor, steadily
 from nmm.formulation import Solver
 from nmm.solvers.linear import Factor as Decomposed
 from nmm.solvers.linear import LinearSolver, make_solver
 
-# Decompositions that are kept, of steps of as many lengths.
+# Systems that are kept, of steps of as many lengths.
 KEPT = 3
+# What flows, as a share of what flows to and fro, that is rounding.
+ROUNDED = 4 * float(np.finfo(float).eps)
 
 
 def step_between(begin: float, end: float) -> float:
@@ -81,7 +84,9 @@ class DiffusionProblem:
     sources: Sequence[VolumeSource]
     given: Sequence[GivenField]
     solver: LinearSolver
-    _factors: dict[float, Decomposed] = field(default_factory=dict, repr=False)
+    _systems: dict[float, tuple[csc_array, Decomposed | None]] = field(
+        default_factory=dict, repr=False
+    )
 
     @cached_property
     def matrix(self) -> csc_array:
@@ -130,9 +135,25 @@ class DiffusionProblem:
             *(body.factor for body in self.given),
         ]
 
+    def rests(self, unknowns: Floats) -> bool:
+        """Whether a field (n,) stays as it is: nothing loads it, and what flows is rounding."""
+        return self.still and self._resting.of(unknowns)
+
+    @cached_property
+    def _resting(self) -> KeptOfArray[bool]:
+        return KeptOfArray(self._flows_nowhere)
+
+    def _flows_nowhere(self, unknowns: Floats) -> bool:
+        """Whether a field (n,) is even where nothing loads it: small loads would add up."""
+        free = self.free
+        if self.load(0.0).any() or not np.array_equal(unknowns[~free], self.held(0.0)[~free]):
+            return False
+        flows, all_ways = self.matrix @ unknowns, abs(self.matrix) @ np.abs(unknowns)
+        return bool(np.all(np.abs(flows)[free] <= ROUNDED * all_ways[free]))
+
     def steady(self, time: float) -> Floats:
         """Unknowns (n,) of the field that no longer changes."""
-        return self._solved(0.0, self.matrix, self.load(time), time)
+        return self._solved(0.0, self.load(time), time)
 
     def stepped(
         self, before: Floats, begin: float, end: float, theta: float, room: Floats | None = None
@@ -148,18 +169,16 @@ class DiffusionProblem:
             force += step * (1 - theta) * (self.load(begin) - self.matrix @ before)
         if room is not None:
             force = force - room
-        matrix = csc_array(self.capacity + theta * step * self.matrix)
-        return self._solved(theta * step, matrix, force, end)
+        return self._solved(theta * step, force, end)
 
     def relief(self, step: float, room: csc_array) -> Floats:
         """Unknowns (n, k) by which the field falls as columns of ``room`` (n, k) are filled.
 
         In a step of theta = 1 and its length (s).
         """
-        assert self.capacity is not None
         free, found = self.free, np.zeros(room.shape)
-        matrix = csc_array(self.capacity + step * self.matrix)
-        factor = self._factor(step, matrix)
+        _, factor = self._system(step)
+        assert factor is not None
         columns = [factor.solve(one) for one in room.toarray()[free].T]  # one right side a solve
         found[free] = np.transpose(columns)
         return found
@@ -197,24 +216,38 @@ class DiffusionProblem:
         return np.where(self.free, self.space.one, 0.0)
 
     def forget(self) -> None:
-        """Drop the decompositions."""
-        self._factors.clear()
+        """Drop matrices and decompositions."""
+        self._systems.clear()
+        self._resting.forget()
 
-    def _solved(self, key: float, matrix: csc_array, force: Floats, time: float) -> Floats:
-        """Solve for what is free; ``key`` names the matrix."""
-        free, found = self.free, self.held(time)
-        if not free.any():
+    def _solved(self, step: float, force: Floats, time: float) -> Floats:
+        """Solve for what is free in the system of a step (s), see `_system`."""
+        matrix, factor = self._system(step)
+        found = self.held(time)
+        if factor is None:
             return found
-        force = force - matrix @ found
-        found[free] = self._factor(key, matrix).solve(force[free])
+        free, force = self.free, force - matrix @ found
+        found[free] = factor.solve(force[free])
         return found
 
-    def _factor(self, key: float, matrix: csc_array) -> Decomposed:
-        """Return the factor of a matrix for what is free, that of ``key`` where it is known."""
-        factor, free = self._factors.get(key), self.free
-        if factor is None:
-            own = matrix if free.all() else csc_array(matrix[free][:, free])
-            if len(self._factors) > KEPT:
-                self._factors.clear()
-            factor = self._factors[key] = self.solver.factorise(own)
-        return factor
+    def _system(self, step: float) -> tuple[csc_array, Decomposed | None]:
+        """Return ``M + step K``, ``K`` for a step of 0, and its factor for what is free.
+
+        The factor is None where nothing is free.
+        """
+        known = self._systems.get(step)
+        if known is None:
+            if len(self._systems) > KEPT:
+                self._systems.clear()
+            known = self._systems[step] = self._made(step)
+        return known
+
+    def _made(self, step: float) -> tuple[csc_array, Decomposed | None]:
+        matrix, free = self.matrix, self.free
+        if step:
+            assert self.capacity is not None
+            matrix = csc_array(self.capacity + step * matrix)
+        if not free.any():
+            return matrix, None
+        own = matrix if free.all() else csc_array(matrix[free][:, free])
+        return matrix, self.solver.factorise(own)

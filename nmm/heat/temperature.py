@@ -2,10 +2,12 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats
+from nmm.assembly.kept import KeptOfArray
 from nmm.assembly.matter import SWELLING, Matter
 from nmm.assembly.motion import State
 from nmm.diffusion.course import Course
@@ -112,7 +114,7 @@ class Heat(FieldEffect):
         if self.strain is None:
             return 0.0
         rise = self.acting(state.time)
-        held = float(rise @ (self.strain.held @ rise)) / 2
+        held = self.strain.energy(rise)
         if self._turned is not None:
             return held + self._turned.energy(state)
         return held - float(self.strain.force(rise) @ state.deformation)
@@ -122,13 +124,14 @@ class Heat(FieldEffect):
         if self.strain is None:
             return 0.0
         first, last = self.acting(before.time), self.acting(after.time)
-        held = self.strain.held
-        stored = float(last @ (held @ last) - first @ (held @ first)) / 2
+        if last is first and self.strain.points is None:
+            return 0.0
+        stored = self.strain.energy(last) - self.strain.energy(first)
         if self._turned is not None:
             return stored + self._turned.work(before, after)
         if self.strain.points is not None:
             stored -= self.strain.model.swollen(before, after)
-        push = self.strain.force(last - first)
+        push = self.strain.force(last) - self.strain.force(first)
         return stored - float(push @ (before.deformation + after.deformation)) / 2
 
     def outputs(self, state: State) -> Mapping[str, Quantity]:
@@ -146,7 +149,17 @@ class Heat(FieldEffect):
         return {**extremes, **self.amounts(state)}
 
     def _values(self, state: State) -> Floats:
-        return self._reference + self.space.vertices @ self.acting(state.time)
+        return self._at_vertices.of(self.acting(state.time))
+
+    @cached_property
+    def _at_vertices(self) -> KeptOfArray[Floats]:
+        """Temperature at the vertices."""
+        return KeptOfArray(lambda rise: self._reference + self.space.vertices @ rise)
+
+    def forget(self) -> None:
+        """See `Effect.forget`."""
+        super().forget()
+        self._at_vertices.forget()
 
 
 def _strain(setup: Setup, space: ScalarSpace) -> ThermalStrain | None:

@@ -57,8 +57,12 @@ class ThermalStrain(FieldStress):
         """Strain (Q,) of material points; see `Effect.swelling`."""
         return None if self.points is None else np.asarray(self.points @ unknowns)
 
+    def energy(self, unknowns: Floats) -> float:
+        """Energy (J) of a temperature (n,) in material that is held."""
+        return float(unknowns @ (self.held @ unknowns)) / 2
+
     @cached_property
     def held(self) -> csc_array:
-        """(n, n) energy of material that is held: half the square of it in the temperature."""
+        """(n, n) of material that is held: half its square in the temperature is the energy."""
         density = self.expansion * (self.stress @ ISOTROPIC)
         return products(self.space, self.model.thickness * density)

@@ -125,7 +125,7 @@ class Consolidation(PoreWater):
     def _room(self, state: State) -> Floats:
         """Room (n,) that strain has made, weighed by the functions of the field (m3)."""
         assert self.stress is not None
-        return np.asarray(self.stress.coupling.T @ state.deformation)
+        return np.asarray(self.stress.room @ state.deformation)
 
     def _pressure(self, head: Floats) -> Floats:
         return np.asarray(self._weight * (head - self._ground))

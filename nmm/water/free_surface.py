@@ -139,6 +139,10 @@ class FreeSurface(DiffusionProblem):
         parts = {one.name: getattr(problem, one.name) for one in fields(DiffusionProblem)}
         return cls(**parts, filling=filling)
 
+    def rests(self, unknowns: Floats) -> bool:
+        """See `DiffusionProblem.rests`: what flows hangs on how far pores are filled."""
+        return False
+
     def steady(self, time: float) -> Floats:
         """Unknowns (n,) of the head.
 

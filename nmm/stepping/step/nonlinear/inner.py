@@ -73,6 +73,7 @@ class Inner:
         symmetrised = self.symmetric and not even
         self._effects = EffectForces(current, state, end, span, kinematics, symmetrised)
         self.elastic, self.start = self._matter.elastic, self._matter.start
+        self.scale = current.model.force_scale
 
     def at(
         self, increment: Floats, before: Iterate | None = None, after: State | None = None

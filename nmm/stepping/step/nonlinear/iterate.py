@@ -8,6 +8,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
+from nmm.solvers.unchecked import product
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,7 @@ class InnerPart:
 
     def missed(self, now: "InnerPart", way: Floats) -> Floats:
         """What the tangent of another iterate, ``way`` (n,) from here, missed of the force (n,)."""
-        return np.asarray(self.force - now.force - now.stiffness @ way)
+        return self.force - now.force - product(now.stiffness, way)
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from integration.arrays import Floats
 from nmm.assembly.matter import STRESS, SWELLING
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
+from nmm.solvers.unchecked import product
 from nmm.stepping.step.nonlinear.iterate import InnerPart, size
 
 if TYPE_CHECKING:
@@ -54,11 +55,10 @@ class MatterForces:
     ) -> None:
         self._model, self._state, self._step = model, state, step
         self._weight, self._conserves, self._symmetric = weight, conserves, symmetric
+        self.elastic = model.elastic_stiffness
         if model.matter is None:
-            self.elastic = model.stiffness
-            self.start = self.elastic @ state.deformation
+            self.start = product(self.elastic, state.deformation)
         else:
-            self.elastic = model.matter.elastic_stiffness
             self.start = model.internal(state)
         self._history = _swollen(state.history, swelling)
 
@@ -73,7 +73,7 @@ class MatterForces:
         whole = state.deformation + increment
         if matter is None:
             stiffness = self._model.stiffness
-            return InnerPart(stiffness @ whole, lambda: stiffness), state.history
+            return InnerPart(product(stiffness, whole), lambda: stiffness), state.history
         if self._conserves:
             return self._conserving(whole), state.history
         last = None if before is None else state.deformation + before

@@ -15,6 +15,8 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.assembly.motion import State
+from nmm.frozen import with_parts
+from nmm.solvers.unchecked import product
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.equations import Equations, Linearisation
 from nmm.stepping.step.nonlinear.inner import Inner
@@ -54,7 +56,7 @@ def newton(
     -------
     The last equations and their solution, with what is remembered at its end.
     """
-    elastic, scale = inner.elastic if inner.flows else None, _scale(inner.elastic)
+    elastic, scale = inner.elastic if inner.flows else None, inner.scale
     way, passes, softens = np.zeros_like(inner.start), 0, False
     now = inner.at(way)
     found: Attempt | None = None
@@ -63,12 +65,12 @@ def newton(
         line = _line(inner, now, clock)
         equations, found = solve(line, found)
         passes += found.passes
-        found = replace(found, passes=passes, imbalances=tuple(imbalances))
+        found = with_parts(found, passes=passes, imbalances=tuple(imbalances))
         if not found.converged and not _goes_on(found):
             return equations, _failed(found, found.sentence, _flow(elastic, line, way, softens))
         then = inner.at(found.increment, now, found.state)
         imbalances.append(inner.imbalance(now, then, scale, equations.force, found.missed))
-        found = replace(found, imbalances=tuple(imbalances))
+        found = with_parts(found, imbalances=tuple(imbalances))
         if _balanced(imbalances, inner.tolerance, found.residual):
             return equations, _accepted(found, then)
         way = then.increment - now.increment
@@ -82,8 +84,8 @@ def newton(
 
 def _accepted(found: Attempt, then: Iterate) -> Attempt:
     """Return the solution with what matter and effects remember at its end."""
-    after = replace(found.state, history=then.history, memory=then.memory)
-    return replace(found, state=after, residual=max(found.residual, found.imbalances[-1]))
+    after = with_parts(found.state, history=then.history, memory=then.memory)
+    return with_parts(found, state=after, residual=max(found.residual, found.imbalances[-1]))
 
 
 def _lost(found: Attempt, state: State, flows: str) -> Attempt:
@@ -109,14 +111,8 @@ def _goes_on(found: Attempt) -> bool:
 def _line(inner: Inner, at: Iterate, clock: Clock) -> Linearisation:
     with clock.phase("assembly"):
         stiffness = at.stiffness
-    force = at.force - stiffness @ at.increment if at.increment.any() else at.force
+    force = at.force - product(stiffness, at.increment) if at.increment.any() else at.force
     return Linearisation(stiffness, force, inner.start, inner.symmetric)
-
-
-def _scale(elastic: csc_array) -> Floats:
-    """(n,) factors by which forces on unknowns of all kinds compare."""
-    diagonal = elastic.diagonal()
-    return np.asarray(1 / np.sqrt(np.where(diagonal > 0, diagonal, np.inf)))
 
 
 def _balanced(imbalances: list[float], tolerance: float, residual: float) -> bool:
