@@ -88,6 +88,18 @@ class Contacts:
         return type(self)(*(getattr(self, part.name)[index] for part in fields(self)))
 
 
+_NO_PAIR, _NO_NUMBER = np.empty(0, np.int64), np.empty(0)
+NO_CONTACTS = Contacts(
+    vertex=_NO_PAIR,
+    edge=_NO_PAIR,
+    parameter=_NO_NUMBER,
+    normal=np.empty((0, 2)),
+    gap=_NO_NUMBER,
+    kind=_NO_PAIR,
+    key=_NO_PAIR,
+    body=_NO_PAIR,
+    corner=_NO_PAIR,
+)
 Some = TypeVar("Some", bound=Contacts)
 
 
@@ -116,10 +128,9 @@ def find_contacts(
         (n, 2) what each vertex is expected to move in the step (m); chooses among the lines of
         pairs that are still open.
     """
+    if not len(vertex):
+        return NO_CONTACTS
     rules = rules_of(surface, reach)
-    if not len(surface):
-        none = np.empty(0)
-        return contacts_of(surface, vertex, edge, none, none, none > 0, rules)
     # Compiled code is loaded by the first search, not by whoever names this module.
     from nmm.contact.detection.narrow.selection import find
 

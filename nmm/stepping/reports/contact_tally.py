@@ -27,7 +27,9 @@ def tallied(
     assert contact is not None
     gap = contacts.distance
     overlap = ends = -float(least(gap, initial=0.0))
-    turned = float(largest(np.abs(after.frames.angle - before.frames.angle), initial=0.0))
+    turned = 0.0
+    if len(contacts):
+        turned = float(largest(np.abs(after.frames.angle - before.frames.angle), initial=0.0))
     if turned * attempt.motion > MIDPOINT_GAPS * overlap:  # gaps are solved along straight ways
         acts = (contacts.normal_force < 0) & ~contacts.is_joint
         surface = contact.partners.surface(after)
