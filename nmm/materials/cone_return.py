@@ -5,12 +5,12 @@ Size of the deviator and mean stress span a plane in which the yield surface is 
 return to one of them or to the corner (`nmm.materials.planes`).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Bools, Floats
 from nmm.materials.planes import BEYOND, Planes, ReturnedStress, Weakening, return_to_planes
 from nmm.materials.radial_return import DEVIATOR, TWICE, VOLUME
 
@@ -54,6 +54,15 @@ class SmoothCone:
             for at in acting
         )
 
+    @cached_property
+    def elastic(self) -> Floats:
+        """(3, 3) stresses from strains (xx, yy, 2 xy) in plane strain (Pa)."""
+        return np.asarray(2 * self.shear * DEVIATOR + self.bulk * np.outer(VOLUME, VOLUME))
+
+    def flows(self, stress: Floats, done: Floats) -> Bools:
+        """Return where (m,) deviator and mean stress (m, 2) exceed the surface."""
+        return np.asarray(self.beyond(stress, done) > BEYOND * self.size(stress))
+
     def size(self, stress: Floats) -> Floats:
         """Return what rounding of deviator and mean stress (m, 2) is a share of, (m,) in Pa."""
         return np.asarray(np.abs(stress).sum(axis=1) + self.strength[0])
@@ -77,23 +86,38 @@ def cone_return(
     deviator = 2 * cone.shear * (elastic * np.array([1, 1, 0.5, 1]) - volume[:, None] / 3 * MEAN)
     size = np.sqrt((TWICE * deviator**2).sum(axis=1) / 2)
     trial = np.column_stack([size, cone.bulk * volume])
-    after, change, done = (
-        trial.copy(),
-        np.tile(np.eye(2), (len(trial), 1, 1)),
-        weakening.done.copy(),
-    )
-    scale = cone.size(trial)
-    flows = cone.beyond(trial, done) > BEYOND * scale
-    after[flows], change[flows], done[flows] = return_to_planes(
-        trial[flows], cone.sets, weakening.at(flows), cone.beyond, (cone.shear, scale[flows])
-    )
+    # One tangent for all points, copied where some flow.
+    tangent = np.broadcast_to(cone.elastic, (len(trial), 3, 3))
+    stress = deviator + trial[:, 1:] * MEAN
+    found = ReturnedStress(stress, tangent, plastic.copy(), weakening.done.copy())
+    flows = np.flatnonzero(cone.flows(trial, weakening.done))
+    if not len(flows):
+        return found
+    back = _returned(trial[flows], deviator[flows], cone, weakening.at(flows))
+    found = replace(found, tangent=tangent.copy())
+    found.stress[flows], found.tangent[flows] = back.stress, back.tangent
+    found.plastic_strain[flows] += back.plastic_strain
+    found.softened[flows] = back.softened
+    return found
+
+
+def _returned(
+    trial: Floats, deviator: Floats, cone: SmoothCone, weakening: Weakening
+) -> ReturnedStress:
+    """Return stresses of points beyond the cone, and by how much their plastic strain grows.
+
+    ``trial`` (m, 2) are size and mean stress before, ``deviator`` (m, 4) the rest of the stress.
+    """
+    scale = cone.shear, cone.size(trial)
+    after, change, done = return_to_planes(trial, cone.sets, weakening, cone.beyond, scale)
+    size = trial[:, 0]
     shaped = np.where(size > 0, size, 1.0)
     left = np.where(size > 0, after[:, 0] / shaped, 1.0)
     stress = left[:, None] * deviator + after[:, 1:] * MEAN
     flow = (1 - left)[:, None] * deviator / 2 / cone.shear
     flow = flow + ((trial - after)[:, 1] / 3 / cone.bulk)[:, None] * MEAN
     tangent = _tangent(left, deviator[:, :3] / shaped[:, None], change, cone)
-    return ReturnedStress(stress, tangent, plastic + flow * TWICE, done)
+    return ReturnedStress(stress, tangent, flow * TWICE, done)
 
 
 def _tangent(left: Floats, way: Floats, change: Floats, cone: SmoothCone) -> Floats:

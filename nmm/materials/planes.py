@@ -20,7 +20,7 @@ from typing import Self
 
 import numpy as np
 
-from integration.arrays import Bools, Floats
+from integration.arrays import Bools, Floats, Ints
 
 # Share of the stresses by which rounding leaves a point beyond the yield surface: it is elastic.
 BEYOND = 1e-10
@@ -46,7 +46,7 @@ class Weakening:
         """Return that of points that do not soften."""
         return cls(np.zeros(points), np.zeros(points))
 
-    def at(self, points: Bools | slice) -> Self:
+    def at(self, points: Bools | Ints) -> Self:
         """Return that of some points."""
         return replace(self, done=self.done[points], speed=self.speed[points])
 
@@ -161,11 +161,17 @@ def return_to_planes(
     found, done = trial.copy(), weakening.done.copy()
     tangent = np.tile(np.eye(trial.shape[1]), (len(trial), 1, 1))
     least, (stiff, size) = np.full(len(trial), np.inf), scale
+    at = np.arange(len(trial))
     for planes in sets:  # three to ten
-        stress, flow, after = planes.returned(trial, weakening)
+        weak = weakening.at(at)
+        stress, flow, after = planes.returned(trial[at], weak)
         wrong = np.maximum(beyond(stress, after), -stiff * flow.min(axis=1))
-        better = wrong < least - BEYOND * size
-        least = np.where(better, wrong, least)
-        found[better], done[better] = stress[better], after[better]
-        tangent[better] = planes.tangent(weakening.at(better), after[better])
+        better = wrong < least[at] - BEYOND * size[at]
+        chosen = at[better]
+        least[chosen], found[chosen], done[chosen] = wrong[better], stress[better], after[better]
+        tangent[chosen] = planes.tangent(weak.at(better), after[better])
+        # Where nothing is exceeded and nothing flows backwards no other set is asked.
+        at = at[least[at] > BEYOND * size[at]]
+        if not len(at):
+            break
     return found, tangent, done
