@@ -19,18 +19,12 @@ from nmm.assembly.stress_points import StressAt
 from nmm.effects.base import Effect, Instant, Span, StepForce, defines
 from nmm.errors import SolveError
 from nmm.model.effects_table import OWN
-from nmm.model.planning.hooks import Hooks
+from nmm.model.planning.named import NamedEffects
 from nmm.quantity import MemberSegments
 
 if TYPE_CHECKING:
-    from nmm.constraints.supports import Supports
-    from nmm.effects.contact import Contact
     from nmm.effects.event import Event
-    from nmm.effects.inertia import Inertia
-    from nmm.effects.initial.initial_stress import InitialStress
-    from nmm.effects.loads import Loads
     from nmm.effects.view import View
-    from nmm.fracture.growth.growing import GrowingCracks
 
 SHARED = frozenset(
     (
@@ -42,7 +36,7 @@ SHARED = frozenset(
 
 
 @dataclass(frozen=True)
-class Plan(Hooks):
+class Plan(NamedEffects):
     """The effects of a scene; a hook is summed over the effects that define it.
 
     Attributes
@@ -268,40 +262,6 @@ class Plan(Hooks):
     def event(self, name: str, view: "View") -> "Event | None":
         """Return the event that a state calls for by one of the `askers`."""
         return self.timed(name, partial(self.effects[name].event, view))
-
-    @property
-    def contact(self) -> "Contact | None":
-        """The contact effect."""
-        return self.effects.get("contact")  # type: ignore[return-value]
-
-    @property
-    def fracture(self) -> "GrowingCracks | None":
-        """The growth of cracks."""
-        return self.effects.get("fracture")  # type: ignore[return-value]
-
-    @property
-    def inertia(self) -> "Inertia | None":
-        """The inertia effect."""
-        return self.effects.get("inertia")  # type: ignore[return-value]
-
-    @property
-    def loads(self) -> "Loads | None":
-        """The point and edge loads."""
-        return self.effects.get("loads")  # type: ignore[return-value]
-
-    def scaled_load(self, factor: float) -> float | None:
-        """Return the resultant (N) of the scaled loads at a load factor; None without loads."""
-        return None if self.loads is None else self.loads.scaled_resultant(factor)
-
-    @property
-    def supports(self) -> "Supports | None":
-        """The supports."""
-        return self.effects.get("supports")  # type: ignore[return-value]
-
-    @property
-    def initial_stress(self) -> "InitialStress | None":
-        """The initial stress."""
-        return self.effects.get("initial stress")  # type: ignore[return-value]
 
 
 def _are(some: list[csc_array], others: list[csc_array]) -> bool:
