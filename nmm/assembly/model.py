@@ -52,6 +52,12 @@ class Model(ElasticSolid):
     cell_size: Floats | None = None
 
     @cached_property
+    def of_blocks(self) -> bool:
+        """Whether every body is one element, whose points' rows hold all its unknowns."""
+        manifold = self.manifold
+        return len(manifold.elements) == manifold.n_bodies == manifold.n_covers
+
+    @cached_property
     def matter(self) -> "Matter | FiniteMatter | None":
         """Material points of the elements whose laws are not linear; None without any.
 

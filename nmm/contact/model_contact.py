@@ -90,8 +90,9 @@ class ModelContact:
         """Inertia of the bodies as contact needs it."""
         from nmm.contact.solution.momentum import Momentum
 
-        curved = self.geometry.curved
-        return Momentum(self.model, self.partners.sides, self._parts.held, curved)
+        of_blocks, geometry = self.model.of_blocks, self.geometry
+        from_start = geometry.curved if of_blocks else geometry.joined
+        return Momentum(self.model, self.partners.sides, self._parts.held, from_start)
 
     @cached_property
     def solver(self) -> "ContactSolver":

@@ -80,6 +80,8 @@ MIDPOINT_SOLUTIONS = 4
 """How often a step is solved again with contact forces where they act at its middle."""
 MIDPOINT_GAPS = 1e-4
 """Share of the penetrations by which gaps may be off for the rotation of bodies within a step."""
+MIDPOINT_GAPS_OF_MESHES = 1e-5
+"""The same where forces act half way on bodies of many elements."""
 
 
 class Rules(NamedTuple):

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Bools, Floats
 from nmm.contact.detection.surface import Surface
 from nmm.contact.points.boundary_points import tangents
 from nmm.contact.points.contact_points import ContactPoints
@@ -37,10 +37,14 @@ class EdgeShares:
     @classmethod
     def of(cls, points: ContactPoints, length: Floats) -> "EdgeShares":
         """Return those of points; ``length`` (n,) of the edges where bodies were laid (m)."""
-        joint = points.is_joint
-        a = np.where(joint, -0.5, 0.0) / length[points.edge_a]
-        b = np.where(joint, 0.5, 1.0) / length[points.edge_b]
-        return cls(a[:, None], b[:, None])
+        return cls.between(points, length, points.is_joint[:, None])
+
+    @classmethod
+    def between(cls, points: ContactPoints, length: Floats, alike: Bools) -> "EdgeShares":
+        """Return the same with the mean of both edges where faces are ``alike`` (m, 1)."""
+        a = np.where(alike, -0.5, 0.0) / length[points.edge_a, None]
+        b = np.where(alike, 0.5, 1.0) / length[points.edge_b, None]
+        return cls(a, b)
 
     def along(self, points: ContactPoints, surface: Surface) -> Floats:
         """Vectors (m, 2) along the lines."""

@@ -52,14 +52,14 @@ def conserving_rows(
         bent = face_lines(sides, contacts.edge_b, contacts.parameter_b)
         vectors[1] = _but_for(joint, vectors[1], bent)
     shares = EdgeShares.of(contacts, sides.length)
-    along_a, along_b = (_between(*vector, states) for vector in vectors)
+    along_a, along_b = (between(*vector, states) for vector in vectors)
     along = _each(lambda a, b: shares.a * a + shares.b * b, along_a, along_b)
-    apart = _between(point, foot, states)
+    apart = between(point, foot, states)
     count, found = len(states[0].deformation), []
-    for by_along, by_apart in _slopes(along, apart, joint[:, None]):
-        slopes = shares.a * by_along, shares.b * by_along, by_apart
-        found.append(_rows(slopes, (*vectors, (point, foot)), count))
-    return ContactRows(found[0], found[1], across(_mean(along)))
+    for by_along, by_apart in slopes(along, apart, joint[:, None]):
+        by = shares.a * by_along, shares.b * by_along, by_apart
+        found.append(_rows(by, (*vectors, (point, foot)), count))
+    return ContactRows(found[0], found[1], across(mean(along)))
 
 
 def _but_for(chosen: Bools, chord: Line, bent: Line) -> Line:
@@ -86,18 +86,18 @@ def _of_both(chosen: Bools, one: MaterialPoints, other: MaterialPoints) -> Mater
     return MaterialPoints(one.body, arm, Rows(unknowns, values))
 
 
-def _slopes(along: Pair, apart: Pair, joint: Bools) -> tuple[Pair, Pair]:
+def slopes(along: Pair, apart: Pair, joint: Bools) -> tuple[Pair, Pair]:
     """Discrete slopes of gap and slip by the vectors along the edge and from it to the point."""
-    half, way = _mean(along), _mean(apart)
+    half, way = mean(along), mean(apart)
     one, other = (_norm(t) for t in along)
-    mean, over = (1 / one + 1 / other) / 2, one * other * (one + other)
-    stretched = _mean(_each(_cross, apart, along)) / over
-    gap = -mean * tangents(way) - 2 * stretched * half, mean * tangents(half)
+    inverse, over = (1 / one + 1 / other) / 2, one * other * (one + other)
+    stretched = mean(_each(_cross, apart, along)) / over
+    gap = -inverse * tangents(way) - 2 * stretched * half, inverse * tangents(half)
     # A joint slips as it opens; along an edge that stretches, places stretch.
-    length, place = (one + other) / 2, _mean(_each(_dot, apart, along))
-    mean = np.where(joint, mean, length * (one**-2 + other**-2) / 2)
+    length, place = (one + other) / 2, mean(_each(_dot, apart, along))
+    inverse = np.where(joint, inverse, length * (one**-2 + other**-2) / 2)
     stretched = np.where(joint, place / over, length * place / (one * other) ** 2)
-    slip = -mean * way + 2 * stretched * half, -mean * half
+    slip = -inverse * way + 2 * stretched * half, -inverse * half
     return gap, slip
 
 
@@ -114,7 +114,7 @@ def _rows(
     return row_matrix(columns, values, count, merged=True)
 
 
-def _between(head: MaterialPoints, tail: MaterialPoints, states: tuple[State, State]) -> Pair:
+def between(head: MaterialPoints, tail: MaterialPoints, states: tuple[State, State]) -> Pair:
     """Vectors (m, 2) from one point to another at both states."""
     first, last = (
         head.place(state.frames, state.deformation) - tail.place(state.frames, state.deformation)
@@ -123,7 +123,8 @@ def _between(head: MaterialPoints, tail: MaterialPoints, states: tuple[State, St
     return first, last
 
 
-def _mean(ends: Pair) -> Floats:
+def mean(ends: Pair) -> Floats:
+    """Return the mean of both ends."""
     return np.asarray((ends[0] + ends[1]) / 2)
 
 

@@ -10,6 +10,7 @@ from integration.arrays import Floats
 from nmm.assembly.motion import Frames
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.half_way.mean_motion import MeanMotion
 from nmm.contact.points.joint_points import JointSites
 from nmm.contact.problem.row_products import pushed
 from nmm.solvers.unchecked import made_of
@@ -28,15 +29,19 @@ class ContactRows:
         (m, n), of the same sorted pattern.
     direction
         (m, 2) unit normals, from b to a.
+    whole
+        What rows have beside these, of bodies of many elements that turn; None elsewhere.
     """
 
     normal: csr_array
     tangent: csr_array
     direction: Floats
+    whole: MeanMotion | None = None
 
     def push(self, normal: Floats, shear: Floats) -> Floats:
         """Return what forces (m,) of the contacts are on the unknowns (n,)."""
-        return pushed(self.normal, self.tangent, normal, shear)
+        near = pushed(self.normal, self.tangent, normal, shear)
+        return near if self.whole is None else near + self.whole.push(normal, shear)
 
 
 def contact_rows(

@@ -20,7 +20,7 @@ from nmm.contact.enforcement.rebalanced import solve_rebalanced
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.dashpots import RigidMass
 from nmm.contact.laws.failing_bonds import break_bonds, breaking
-from nmm.contact.laws.history_iteration import HistoryIteration, slid_under_load
+from nmm.contact.laws.history_iteration import HistoryIteration
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.contact_rows import ContactRows
 from nmm.contact.problem.balance import with_springs
@@ -148,7 +148,7 @@ class ContactSolver:
             enforced = partial(self._enforced, posed.transforms, request.solver)
             answer = solve_through(posed.transforms, posed.problem, enforced)
             passes += answer.passes
-            sliding = slid_under_load(posed.problem, answer, iteration.softening)
+            sliding = posed.slid(answer, iteration.softening)
             if answer.verdict.converged:
                 fault = iteration.settled(answer, sliding)
                 answer = answer if fault is None else replace(answer, verdict=fault)

@@ -17,14 +17,20 @@ from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.contact_rows import ContactRows, contact_rows
 from nmm.contact.points.continued.tracking import apart_on
+from nmm.contact.points.half_way.mean_motion import Forces
+from nmm.contact.points.half_way.midpoint import body_projection, midpoint_rows
 from nmm.contact.points.joint_points import JointSites
-from nmm.contact.points.midpoint import body_projection, midpoint_rows
 from nmm.contact.points.turning_lines import line_turns
 from nmm.frozen import with_parts
 
 
 class ContactGeometry:
     """Boundary points of a model as contact needs them.
+
+    Attributes
+    ----------
+    joined
+        Whether there are joints.
 
     Parameters
     ----------
@@ -48,7 +54,7 @@ class ContactGeometry:
     ) -> None:
         self.model, self.sides, self.bends = model, sides, bends
         self.trace_space = trace_space
-        self._sites = JointSites.of(sides, joints)
+        self.joined, self._sites = len(joints) > 0, JointSites.of(sides, joints)
 
     @property
     def curved(self) -> bool:
@@ -61,9 +67,22 @@ class ContactGeometry:
         return self.bends or self._sites is None
 
     def rows(
-        self, contacts: ContactPoints, state: State, midpoint: State | None = None
+        self,
+        contacts: ContactPoints,
+        state: State,
+        midpoint: State | None = None,
+        forces: Forces | None = None,
     ) -> ContactRows:
-        """Return the rows of contacts in a state, or at the middle of a step."""
+        """Return the rows of contacts in a state, or at the middle of a step.
+
+        ``forces`` are what is known of them there; None: those that the contacts begin with.
+        """
+        if midpoint is not None and not self.model.of_blocks:
+            from nmm.contact.points.half_way.turning_rows import turning_rows
+
+            known = forces or (contacts.normal_force, contacts.shear_force)
+            given = contacts, self.sides, self.model.rigid_projection, (state, midpoint), known
+            return turning_rows(*given, self.bends)
         if midpoint is not None:
             return midpoint_rows(contacts, self.sides, state, midpoint, self._projection)
         sites = JointSites.at(self.sides, contacts) if self.bends else self._sites

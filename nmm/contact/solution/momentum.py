@@ -9,12 +9,14 @@ from nmm.assembly.model import Model
 from nmm.assembly.momenta import rigid_masses
 from nmm.assembly.motion import State, middle
 from nmm.assembly.moved_bodies import entries
-from nmm.contact.detection.tolerances import MIDPOINT_GAPS
+from nmm.contact.detection.tolerances import MIDPOINT_GAPS, MIDPOINT_GAPS_OF_MESHES
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.half_way.mean_motion import MeanMotion
 from nmm.contact.problem.step_problem import StepAnswer
 from nmm.contact.solution.record import ContactSolution
 from nmm.contact.solution.turning import Pressing, foreseen, matters, owed
+from nmm.solvers.unchecked import product
 
 
 class Momentum:
@@ -26,13 +28,13 @@ class Momentum:
         Manifold with its masses, and its boundary edges.
     held
         (B,) bodies that a support holds as a whole.
-    curved
-        Whether contacts act at points of the material, where forces stay at the start of a step.
+    from_start
+        Whether forces stay where they act at the start of a step.
     """
 
-    def __init__(self, model: Model, sides: Sides, held: Bools, curved: bool) -> None:
+    def __init__(self, model: Model, sides: Sides, held: Bools, from_start: bool) -> None:
         self._model, self._sides = model, sides
-        self._held, self._curved = held, curved
+        self._held, self._from_start = held, from_start
 
     def midpoint(
         self, solved: ContactSolution, before: State, after: State, used: State | None
@@ -41,7 +43,7 @@ class Momentum:
 
         Gaps are off by about a rotation times a motion; that matters beside the penetrations.
         """
-        if not self._of_blocks or self._curved:
+        if self._from_start:
             return None
         turn, way = _motion(before, after)
         turn, way = turn / 2, way / 2
@@ -50,9 +52,10 @@ class Momentum:
             turned, moved = _motion(used, middle(before, after))
         motions = turn, way + turn * self._across, turned, moved
         pressing = _pressing(solved.contacts, solved.answer)
-        if not matters(pressing, self._bodies, motions, MIDPOINT_GAPS):
-            return None
-        return middle(before, after)
+        share = MIDPOINT_GAPS if self._model.of_blocks else MIDPOINT_GAPS_OF_MESHES
+        if matters(pressing, self._bodies, motions, share) or _lags(solved, share):
+            return middle(before, after)
+        return None
 
     def foreseen(
         self, contacts: ContactPoints, flight: Floats, acceleration: Floats, half: float
@@ -62,7 +65,7 @@ class Momentum:
         None of one that does not. ``flight`` (n,) is a step's way at the velocity now, ``half``
         half the square of the step (s2).
         """
-        if not self._of_blocks or self._curved:
+        if self._from_start:
             return None
         turns, way = foreseen(
             # That of the last step, had its acceleration not changed.
@@ -87,7 +90,10 @@ class Momentum:
         """
         assert solved.rows is not None
         contacts, answer, half = solved.contacts, solved.answer, middle(before, after)
-        edges = self._model.manifold.boundary
+        gain, edges = step * self._compliance_of_all, self._model.manifold.boundary
+        if solved.rows.whole is not None:
+            left = self._left(solved, solved.rows.whole, (before, after), balance)
+            return product(self._model.manifold.rigid_modes, gain * left)
         return owed(
             balance,
             solved.push,
@@ -99,8 +105,28 @@ class Momentum:
                 contacts.key,
             ),
             (solved.rows.direction, answer.normal_force, answer.shear_force),
-            step * self._compliance_of_all,
+            gain,
         )
+
+    def _left(
+        self, solved: ContactSolution, whole: MeanMotion, ends: tuple[State, State], rest: Floats
+    ) -> Floats:
+        """Forces and moments (3 B,) that bodies lack beside what their rows have made of them.
+
+        ``rest`` (n,) is what is left of the forces. Through mean motions those of the last solution
+        have acted, about centres half way as that foresaw them.
+        """
+        before, after = (state.frames for state in ends)
+        modes, every = self._model.manifold.rigid_modes.T, np.arange(len(before.angle))
+        left, acted = (
+            product(modes, force).reshape(-1, 3) for force in (rest - solved.push, solved.push)
+        )
+        way, known = after.centre - before.centre, whole.motion.reshape(-1, 3)[:, :2]
+        lacking, force = (before.to_global(every, one[:, :2]) for one in (left, acted))
+        acting = whole.acting(solved.answer.normal_force, solved.answer.shear_force)
+        acting += _cross(before.to_global(every, known) - way, force) / 2
+        turned = left[:, 2] + acted[:, 2] - acting - _cross(way, lacking) / 2
+        return np.column_stack([after.to_body(every, lacking), turned]).ravel()
 
     @property
     def _bodies(self) -> Ints:
@@ -111,12 +137,6 @@ class Momentum:
     def _across(self) -> Floats:
         """(B,) how wide bodies are (m)."""
         return np.sqrt(self._model.manifold.body_area)
-
-    @cached_property
-    def _of_blocks(self) -> bool:
-        """Whether every body is one element, whose points' rows hold all its unknowns."""
-        manifold = self._model.manifold
-        return len(manifold.elements) == manifold.n_bodies == manifold.n_covers
 
     @cached_property
     def _compliance_of_all(self) -> Floats:
@@ -130,6 +150,15 @@ class Momentum:
         return np.where(np.repeat(self._held, 3), 0.0, self._compliance_of_all)
 
 
+def _lags(solved: ContactSolution, share: float) -> bool:
+    """Whether forces did other work than those of the last solution, by a ``share`` of theirs."""
+    if solved.rows is None or solved.rows.whole is None:
+        return False
+    answer = solved.answer
+    missed = solved.rows.whole.missed(answer)
+    return missed > share * float(np.abs(answer.normal_force) @ np.abs(answer.gap))
+
+
 def _pressing(contacts: ContactPoints, found: ContactPoints | StepAnswer) -> Pressing:
     """Return edges of contacts with forces and gaps that were found."""
     return contacts.edge_a, contacts.edge_b, found.normal_force, found.gap
@@ -139,3 +168,8 @@ def _motion(one: State, other: State) -> tuple[Floats, Floats]:
     """Rotation (B,) in rad and way of the centre (B,) in m of bodies between two states."""
     way = other.frames.centre - one.frames.centre
     return np.abs(other.frames.angle - one.frames.angle), np.hypot(way[:, 0], way[:, 1])
+
+
+def _cross(one: Floats, other: Floats) -> Floats:
+    """Products (m,) of vectors (m, 2)."""
+    return np.asarray(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0])

@@ -5,18 +5,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Bools, Floats
 from integration.contraction import some
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.dashpots import Dashpots, RigidMass
-from nmm.contact.laws.history_iteration import HistoryIteration
+from nmm.contact.laws.history_iteration import HistoryIteration, slid_under_load
 from nmm.contact.laws.late_cohesion import LateCohesion
 from nmm.contact.laws.time_weighting import RaisedFaces, TimeWeighting, end_shares
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.contact_rows import ContactRows
+from nmm.contact.points.half_way.mean_motion import MeanMotion
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform
 from nmm.contact.solution.request import StepRequest
+from nmm.frozen import with_parts
 
 
 @dataclass(frozen=True)
@@ -35,6 +37,8 @@ class PosedStep:
         Dampers among them; None without.
     weight
         (m,) weight of the end of the step in the stretch of each spring.
+    whole
+        What the mean motions of bodies add to the rows; None where rows are all.
     """
 
     problem: StepProblem
@@ -42,6 +46,14 @@ class PosedStep:
     springs: TimeWeighting | None
     dashpots: Dashpots | None
     weight: Floats
+    whole: MeanMotion | None = None
+
+    def slid(self, answer: StepAnswer, softening: Bools) -> Floats:
+        """Return how far (m,) contacts slid under load, see `slid_under_load`."""
+        problem = self.problem
+        if self.whole is not None:
+            problem = with_parts(problem, slip=problem.slip + self.whole.opened[1])
+        return slid_under_load(problem, answer, softening)
 
     def missed(self, answer: StepAnswer) -> Floats | None:
         """See `ContactSolution.missed`."""
@@ -98,9 +110,9 @@ class Posing:
         late = None if request.step is None else LateCohesion.of(problem.limits, contacts)
         dashpots = self._dashpots(contacts, problem, request.step)
         raised = RaisedFaces(response.rise) if some(response.rise) else None
-        transforms = [late, springs, dashpots, raised, iteration.asymmetric]
+        transforms = [late, springs, dashpots, raised, rows.whole, iteration.asymmetric]
         given = [one for one in transforms if one is not None]
-        return PosedStep(problem, [*given, *more], springs, dashpots, weight)
+        return PosedStep(problem, [*given, *more], springs, dashpots, weight, rows.whole)
 
     def _problem(
         self,

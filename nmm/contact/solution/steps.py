@@ -7,6 +7,7 @@ from nmm.assembly.motion import State
 from nmm.contact.detection.surface import Surface
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.points.contact_points import ContactPoints, concatenate
+from nmm.contact.points.half_way.mean_motion import Forces
 from nmm.contact.problem.transform import Transform
 from nmm.contact.solution.driver import ContactSolver
 from nmm.contact.solution.geometry import ContactGeometry
@@ -39,17 +40,19 @@ class ContactSteps:
         state: State,
         request: StepRequest,
         midpoint: State | None = None,
+        forces: Forces | None = None,
         end: State | None = None,
     ) -> ContactSolution:
         """Solve one step; forces act at ``midpoint``, at the start of the step when None.
 
-        ``end`` is the predicted end of the step, of bodies under finite strain.
+        ``forces`` are those that are known to act there, see `ContactGeometry.rows`; ``end`` is the
+        predicted end of the step, of bodies under finite strain.
         """
         alone = self.solver.alone(contacts, request)
         if alone is not None:
             return alone
         if end is None:
-            rows = self.geometry.rows(contacts, state, midpoint)
+            rows = self.geometry.rows(contacts, state, midpoint, forces)
         else:
             rows = self.geometry.conserving(contacts, state, end)
         surface = self.surface(state)

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from nmm.contact.candidates.held_back import Crossed
     from nmm.contact.detection.crossing import Motion
     from nmm.contact.points.contact_points import ContactPoints
+    from nmm.contact.points.half_way.mean_motion import Forces
     from nmm.contact.solution.record import Broken, ContactSolution
     from nmm.effects.contact import Contact
 
@@ -43,6 +44,8 @@ class Sought:
     midpoint, ahead
         Where contact forces act, and where they do as contacts are sought anew; None where the step
         begins.
+    forces
+        Those (m,) that the last solution found, normal and shear (N); None before one.
     crossed
         Pairs that are contacts because the step without them let them through; None without any.
     broken
@@ -56,6 +59,7 @@ class Sought:
     contacts: "ContactPoints"
     midpoint: State | None
     ahead: State | None
+    forces: "Forces | None" = None
     crossed: "Crossed | None" = None
     broken: "Broken | None" = None
     crossings: int = 0
@@ -145,7 +149,8 @@ class ContactSearch:
         half = self.contact.momentum.midpoint(*given)
         if half is None:
             return None
-        return replace(sought, midpoint=half, midpoints=sought.midpoints + 1)
+        forces = solved.answer.normal_force, solved.answer.shear_force
+        return replace(sought, midpoint=half, forces=forces, midpoints=sought.midpoints + 1)
 
     def _further(
         self, equations: Equations, sought: Sought, solved: "ContactSolution", reach: float
@@ -162,7 +167,7 @@ class ContactSearch:
         """Return the same with the contacts of a new search."""
         given = equations.state, sought.reach, equations.step, sought.crossed
         found = self.candidates(*given)
-        return replace(sought, contacts=found, midpoint=sought.ahead, broken=None)
+        return replace(sought, contacts=found, midpoint=sought.ahead, forces=None, broken=None)
 
     def _ahead(self, equations: Equations, contacts: "ContactPoints") -> State | None:
         """Return where bodies are half way if they go on turning; None where they hardly turn.

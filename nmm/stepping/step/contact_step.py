@@ -155,7 +155,7 @@ class Touching:
         )
         end = None if foreseen is None else foreseen.state
         with self._clock.phase("solve"):
-            given = sought.contacts, equations.state, request, sought.midpoint
+            given = sought.contacts, equations.state, request, sought.midpoint, sought.forces
             return self.search.contact.steps.solve(*given, end)
 
     def _near(self, equations: Equations, foreseen: Attempt | None) -> Attempt | None:

@@ -9,7 +9,7 @@ from covers.approximation.rows import row_matrix
 from nmm.assembly.motion import middle
 from nmm.contact.points.boundary_points import tangents
 from nmm.contact.points.contact_rows import contact_rows
-from nmm.contact.points.midpoint import body_projection, midpoint_rows
+from nmm.contact.points.half_way.midpoint import body_projection, midpoint_rows
 from nmm.frozen import with_parts
 
 TEXT = """

@@ -24,7 +24,7 @@ from nmm.contact.points.between_faces import EdgeShares
 from nmm.contact.points.boundary_points import Sides, tangents
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.contact_rows import ContactRows, contact_rows
-from nmm.contact.points.midpoint_kernel import add_turns
+from nmm.contact.points.half_way.midpoint_kernel import add_turns
 from nmm.frozen import with_parts
 
 
