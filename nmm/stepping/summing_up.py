@@ -9,6 +9,7 @@ from nmm.assembly.motion import State
 from nmm.formulation import Formulation
 from nmm.results.summary import Summary
 from nmm.stepping.audits.base import Ended
+from nmm.stepping.audits.energy import balance
 from nmm.stepping.audits.judge import audit, judged
 from nmm.stepping.drive.verdict import RunVerdict
 from nmm.stepping.reports.recorder import Recorder
@@ -62,7 +63,7 @@ def summed_up(
         peak_memory=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024,
         equilibrium_residual=totals.residual,
         largest_penetration=totals.penetration,
-        energy_balance=totals.ledger.balance,
+        energy_balance=balance(stepper, totals.ledger),
         condition_estimate=condition,
         smallest_step=None if lengths is None else lengths.smallest,
         largest_step=None if lengths is None else lengths.largest,

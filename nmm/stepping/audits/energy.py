@@ -1,5 +1,7 @@
 """Energy that came from nowhere, energy that went, and work that was not stored."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from nmm.integrators.base import make_integrator
@@ -8,6 +10,10 @@ from nmm.stepping.audits.causes import cause
 from nmm.stepping.audits.steps import impact_lasts
 from nmm.stepping.audits.table import THRESHOLDS
 from nmm.stepping.reports.accounts import Rise
+
+if TYPE_CHECKING:
+    from nmm.stepping.reports.ledger import Ledger
+    from nmm.stepping.step.stepper import Stepper
 
 # A rise over the run that is less than this times that of one step is the same rise.
 SAME = 1.5
@@ -40,6 +46,39 @@ def energy(run: Ended) -> Findings:
             f"work and stored energy differ by {percent(ledger.balance)}",
             "the solution is not one of its equations: look at the residual and the condition",
         )
+    else:
+        yield from _released(run)
+
+
+def balance(stepper: "Stepper", ledger: "Ledger") -> float:
+    """Return what work, stores and losses lack, over the largest of them.
+
+    Where bodies may touch coordinates are rounded: energies of a strain of their rounding,
+    ``E (eps L)^2`` times the thickness, are of nothing, and nothing is lacking.
+    """
+    model = stepper.model
+    rounded = float(np.finfo(float).eps) * stepper.size
+    nothing = float(model.modulus.max()) * model.thickness * rounded**2
+    if stepper.plan.contact is not None and ledger.throughput <= nothing:
+        return 0.0
+    return ledger.balance
+
+
+def _released(run: Ended) -> Findings:
+    """Energy of statics that neither work nor losses account for where bonds broke."""
+    stepper, ledger = run.stepper, run.recorder.ledger
+    contact = stepper.plan.contact
+    if contact is None or not contact.broken_bonds:
+        return
+    share = abs(balance(stepper, ledger))
+    yield AuditFinding(
+        "energy_released",
+        share,
+        f"{share * ledger.throughput:.3g} J, {percent(share)} of the turnover, is the difference "
+        "between work and what is stored and lost where bonds broke: statics knows ends of "
+        "increments alone, and what bonds free at once sets bodies in motion",
+        "follow the path ([loading.control]), take smaller increments, or [inertia]",
+    )
 
 
 def _rounding(run: Ended) -> float:

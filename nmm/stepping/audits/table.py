@@ -52,6 +52,12 @@ THRESHOLDS: dict[str, Threshold] = {
         1e-2,
         "statics of small displacements without contact",
     ),
+    "energy_released": Threshold(
+        "energy that neither stores nor losses account for, over the turnover",
+        0.05,
+        None,
+        "statics with contact in which bonds broke",
+    ),
     "not_finite": Threshold("energies that are no finite numbers", 0, 0, "all"),
     "residual": Threshold(
         "largest out-of-balance force of an accepted step, over the load", 1e-6, 1e-3, "all"
