@@ -22,9 +22,7 @@ BUDGET = 300.0
 HERE = Path(__file__).parent
 DOCS = HERE.parents[1] / "docs"
 BEAM = (HERE.parent / "kitoh_beam" / "kitoh_130.toml").read_text()
-PULL_OUT = (HERE / "pull_out.toml").read_text()
-REINFORCED = (HERE.parent / "kitoh_beam" / "kitoh_reinforced.toml").read_text()
-BAR = (HERE.parent / "kitoh_beam" / "kitoh_bar.toml").read_text()
+PULL_OUT = (HERE / "pull_out" / "bonds.toml").read_text()
 
 EVENTS = '\n[loading.control]\ntype = "events"\nfall = 0.1\n\n[[reference]]'
 # Rigid blocks on springs as stiff as the material between their middles (Kawai 1978).
@@ -65,7 +63,11 @@ def beam(height: float = 100.0, blocks: int = 130, energy: float | None = None) 
 
 def plain(way: str) -> str:
     """Return the plain beam, 130 blocks, by one of the ways in ``plain_beam``."""
-    return (HERE / "plain_beam" / f"{way}.toml").read_text()
+    return _of("plain_beam", way)
+
+
+def _of(case: str, way: str) -> str:
+    return (HERE / case / f"{way}.toml").read_text()
 
 
 def loose() -> str:
@@ -85,36 +87,6 @@ def parted(text: str, size: str, mesh: str = "voronoi") -> str:
     options = f'options = {{ mesh = "{mesh}", bond = "interface" }}\n'
     cover = f'\n[formulation.cover]\ntype = "sub_blocks"\nsize = "{size}"\n{options}'
     return table.sub(body, text) + cover
-
-
-def without(text: str, table: str) -> str:
-    """Return a scene without a table."""
-    return re.sub(rf"\[{re.escape(table)}\]\n(.+\n)*", "", text)
-
-
-def split(text: str) -> str:
-    """Return a scene whose blocks split besides joints that break, under a growing load."""
-    found = re.search(r"\[splitting\.concrete\]\n(.+\n)+", plain("splitting"))
-    assert found is not None
-    steps = "\n[formulation.loading]\nincrement = 1\ntolerance = 0.005\n"
-    return without(text, "loading.control") + "\n" + found[0] + steps
-
-
-def barred(way: str) -> str:
-    """Return the plain beam as one body by one of its ways, with the bar of ``kitoh_bar.toml``."""
-    found = re.search(r"\[\[bars\]\]\n(.+\n)+", BAR)
-    assert found is not None
-    return plain(way) + "\n" + found[0] + "\n[formulation.bars]\npieces = 80\n"
-
-
-def barred_plane() -> str:
-    """Return the beam with a bar and a cohesive plane at midspan, under a load up to 40 kN."""
-    text = without(without(barred("cohesive"), "cohesive_zones"), "loading.control")
-    text = text.replace('["200 mm", "10 mm"]]', '["200 mm", "100 mm"]]\nbonded = true')
-    text = text.replace('until = "failure"', "until = 40").replace(
-        'size = "10 mm"', 'size = "14 mm"'
-    )
-    return text + "\n[formulation.loading]\nincrement = 1\n"
 
 
 def triangles(size: str) -> str:
@@ -147,11 +119,14 @@ CASES: dict[str, tuple[str, Callable[[], str]]] = {
     "beam triangles 10": ("sub-blocks, triangles of 10 mm", lambda: triangles("10 mm")),
     "pull-out bonds": ("bonds between blocks, k = infinity", lambda: PULL_OUT),
     "pull-out free bonds": ("bonds between blocks, k = 0", loose),
-    "pull-out rigid": ("rigid blocks and springs, k = infinity", lambda: PULL_OUT + RIGID),
+    "pull-out rigid": (
+        "rigid blocks and springs, k = infinity",
+        lambda: _of("pull_out", "springs"),
+    ),
     "pull-out free rigid": ("rigid blocks and springs, k = 0", lambda: loose() + RIGID),
     "pull-out sub-blocks": (
         "704 sub-blocks that part, k = infinity",
-        lambda: parted(PULL_OUT, "15.957 mm"),
+        lambda: _of("pull_out", "sub_blocks"),
     ),
     "pull-out free sub-blocks": (
         "704 sub-blocks that part, k = 0",
@@ -159,20 +134,34 @@ CASES: dict[str, tuple[str, Callable[[], str]]] = {
     ),
     "pull-out cohesive": (
         "cohesive cone, k = infinity",
-        lambda: (HERE / "pull_out_cohesive.toml").read_text(),
+        lambda: _of("pull_out", "cohesive"),
     ),
     "pull-out crack": (
         "cracks that grow, k = infinity",
-        lambda: (HERE / "pull_out_crack.toml").read_text(),
+        lambda: _of("pull_out", "crack"),
     ),
     "pull-out splitting": (
         "joints that break, blocks that split, k = infinity",
-        lambda: split(PULL_OUT),
+        lambda: _of("pull_out", "splitting"),
     ),
-    "reinforced crack": ("crack that grows across an embedded bar", lambda: barred("notch")),
-    "reinforced cohesive": ("cohesive plane, embedded bar", barred_plane),
-    "reinforced splitting": ("joints that break, blocks that split", lambda: split(REINFORCED)),
-    "reinforced sub-blocks": ("457 sub-blocks that part", lambda: parted(REINFORCED, "9.6 mm")),
+    "reinforced bonds": ("bonds between blocks", lambda: _of("reinforced", "bonds")),
+    "reinforced rigid": ("rigid blocks and springs", lambda: _of("reinforced", "springs")),
+    "reinforced sub-blocks": (
+        "457 sub-blocks that part",
+        lambda: _of("reinforced", "sub_blocks"),
+    ),
+    "reinforced splitting": (
+        "joints that break, blocks that split",
+        lambda: _of("reinforced", "splitting"),
+    ),
+    "reinforced crack": (
+        "crack that grows across an embedded bar",
+        lambda: _of("reinforced", "crack"),
+    ),
+    "reinforced cohesive": (
+        "cohesive plane, embedded bar",
+        lambda: _of("reinforced", "cohesive"),
+    ),
 }
 for _n in (60, 130, 455):
     CASES[f"blocks {_n}"] = f"{_n} blocks", partial(beam, blocks=_n)
