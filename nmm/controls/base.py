@@ -60,6 +60,8 @@ class Control(ABC):
     """Whether the load factor itself is sought, at which the next bond is at its limit."""
     from_limit: ClassVar[bool] = False
     """Whether a path begins where a first bond is at its limit: without one it has no step."""
+    to_origin: ClassVar[bool] = False
+    """Whether it takes all to unload to its origin, as members that yield or slide do not."""
 
     def idle(self, events: int, softened: bool) -> bool:
         """Whether nothing is controlled yet: the load is then what grows, up to the next event.

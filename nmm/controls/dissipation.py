@@ -23,6 +23,7 @@ class Dissipation(Control):
     """Energy that steps take (J)."""
 
     from_limit: ClassVar[bool] = True
+    to_origin: ClassVar[bool] = True
 
     @classmethod
     def of(cls, table: "ControlTable") -> Self:

@@ -120,11 +120,14 @@ class Drive:
 
     def _beyond(self) -> Beyond:
         """Return what looks for limit points."""
-        if self.made.stepper.plan.contact is None:
+        stepper = self.made.stepper
+        if (contact := stepper.plan.contact) is None:
             return unseen
         from nmm.stepping.control.limit_point import LimitPoints
-        from nmm.stepping.control.making import hindrances
+        from nmm.stepping.control.making import hindrances, limits
 
-        if hindrances(self.made.stepper, self.made.formulation):
+        # Where bonds soften the path is led by dissipation, as of what unloads to its origin.
+        astray = limits(stepper) and not contact.laws.brittle.all()
+        if hindrances(stepper, self.made.formulation) or astray:
             return unseen
-        return LimitPoints(self.made.stepper)
+        return LimitPoints(stepper)

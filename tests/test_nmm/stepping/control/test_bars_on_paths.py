@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import nmm
+from nmm.errors import NmmError
 
 # Two rigid blocks of half a metre on one bar; the joint between them breaks at 100 N.
 PULLED = """
@@ -95,3 +96,13 @@ def test_along_a_path_work_is_what_bars_store_and_their_bond_takes(pulled):
     assert abs(pulled.summary.energy_balance) < 1e-9
     # The joint lost what was stored in it: 100 N over its spring, next to nothing.
     assert 0 <= h["friction_loss"][-1] < 1e-8 * taken
+
+
+def test_dissipation_does_not_lead_what_yields_or_slides():
+    """Their unloading would count as dissipation: the load turned round to -34 kN of 55."""
+    soft = 'law = "linear_softening"\nfracture_energy = 100.0\nbonded = true'
+    led = 'type = "dissipation"\nenergy = 0.1\nend_energy = 1.5\n'
+    head, tail = PULLED.replace("bonded = true", soft).split('type = "opening"')
+    scene = nmm.parse_scene(head + led + tail[tail.index("[formulation") :])
+    with pytest.raises(NmmError, match="bars that yield or slide do not unload to their origin"):
+        nmm.run(scene)
