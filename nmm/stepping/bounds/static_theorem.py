@@ -54,7 +54,7 @@ class Carried:
             return "no contact forces within friction and strength carry the loads (static theorem)"
         return (
             "contact forces within friction and strength carry no more than load factor "
-            f"{self.factor:.6g} (static theorem)"
+            f"{max(self.factor, 0.0):.6g} (static theorem)"
         )
 
 

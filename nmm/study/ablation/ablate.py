@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from nmm.errors import FormulationError, NmmError
 from nmm.formulation import Formulation
+from nmm.model.called_for import called_for
 from nmm.progress import Progress
 from nmm.scene import Scene, build_scene
 from nmm.scene.document import build
@@ -71,6 +72,11 @@ class Ablation:
             for name, value in zip(self.quantities, row.values, strict=True)
         )
 
+    def ends(self, row: AblationRow) -> bool:
+        """Whether a run came to another end than the whole scene, without the quantities."""
+        ran = not math.isnan(row.seconds) and row.verdict != self.whole.verdict
+        return ran and any(math.isnan(value) for value in row.values)
+
     def saved(self, row: AblationRow) -> float:
         """Share of the seconds of the whole scene that is saved."""
         return 1.0 - row.seconds / self.whole.seconds if self.whole.seconds > 0 else math.nan
@@ -104,8 +110,10 @@ def ablate(
     tables = scene.model_dump(mode="json", by_alias=True, exclude_defaults=True)
     method = formulation.model_dump(mode="json", exclude_defaults=True)
     whole = StudyCase(WHOLE, scene, formulation)
-    cases, refused = [whole], []
+    cases, refused, called = [whole], [], called_for(scene)
     for omission in omissions(tables, method):
+        if not called.get(omission.name, True):  # of two effects of one table
+            continue
         try:
             cases.append(_case(omission, scene))
         except NmmError as fault:

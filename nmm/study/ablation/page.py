@@ -29,7 +29,8 @@ def ablation_verdict(found: Ablation) -> str:
     sizes = {row.name: np.abs(found.changes(row)) for row in found.rows}
     most = {name: float(size.max()) for name, size in sizes.items() if np.isfinite(size).all()}
     order = sorted(most, key=lambda name: -most[name])
-    matter = [f"{name} ({100 * most[name]:.3g} %)" for name in order if most[name] >= SEEN]
+    matter = [f"{row.name} ({row.verdict} without)" for row in found.rows if found.ends(row)]
+    matter += [f"{name} ({100 * most[name]:.3g} %)" for name in order if most[name] >= SEEN]
     rest = [name for name in order if most[name] < SEEN]
     said = f"matters: {', '.join(matter) or 'none'}"
     return f"{said}; below {100 * SEEN:g} %: {', '.join(rest) or 'none'}"

@@ -73,6 +73,41 @@ def test_the_verdict_names_what_matters_most_first(thrown):
     assert ablation_verdict(thrown) == f"{wanted}; below 0.1 %: finite rotation"
 
 
+def test_the_verdict_names_first_what_the_scene_collapses_without():
+    """A block of 20 kN that 5 kN push along a floor stays: it has weight, a floor, and friction."""
+    scene = text.scene(
+        'plane = "stress"\n[gravity]\n[contact]\n[interfaces.dry]\nfriction_angle = "30 deg"\n',
+        [
+            text.material("a", 1e9, 0.0, 2000.0),
+            text.box("floor", (-1, -1), (3, 1), "a"),
+            text.box("b", (0, 0), (1, 1), "a"),
+            '[[supports]]\nname = "s"\nblock = "floor"\nfix = ["x", "y"]',
+            '[[loads]]\nname = "push"\nkind = "body"\nblock = "b"\ndensity = [5e3, 0]',
+            '[[monitors]]\nname = "m"\npoint = [0.5, 0.5]',
+        ],
+    )
+    said = ablation_verdict(ablate(nmm.parse_scene(scene), Formulation()))
+    needed = [name for name in said.split(", ") if "collapsed without" in name]
+    wanted = ["gravity", "contact", "friction"]
+    assert said.startswith("matters: " + ", ".join(f"{n} (collapsed without)" for n in wanted))
+    assert len(needed) == len(wanted)
+
+
+def test_of_two_effects_of_one_table_that_of_the_scene_alone_is_left_out():
+    scene = text.scene(
+        'plane = "strain"\n[seepage]\n',
+        [
+            text.material("a", 1e9, 0.0, None) + "hydraulic_conductivity = 1e-6\n",
+            text.box("b", (0, 0), (1, 1), "a"),
+            '[[heads]]\nname = "h"\nsegment = [[0, 0], [1, 0]]\nhead = 1.0',
+            '[[supports]]\nname = "s"\nsegment = [[0, 0], [1, 0]]\nfix = ["x", "y"]',
+        ],
+    )
+    names = [row.name for row in ablate(nmm.parse_scene(scene), Formulation()).rows]
+    assert "seepage" in names
+    assert "consolidation" not in names
+
+
 @pytest.mark.parametrize(("long", "runs"), [(0.0, 1 + 1 + 1), (np.inf, 2 + 2)])
 def test_first_runs_that_are_long_are_not_made_again(long, runs, monkeypatch):
     made, once = [], measuring._once

@@ -71,7 +71,7 @@ class LoadTable(Placed):
     spread: Length = Field(
         default=0.0,
         ge=0,
-        description="a length in m over which a moving force is spread evenly, >= 0",
+        description="a length in m behind the front over which a moving force is even, >= 0",
         examples=["0.5 m"],
     )
 
