@@ -1,14 +1,17 @@
 """Steps in time of scalar fields: orders, stability, and what trying a step leaves behind."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from covers.scalar.space import ScalarSpace
 from nmm.assembly.places import on_edges
 from nmm.diffusion.course import Course, FieldAt
+from nmm.diffusion.edges import steadily
 from nmm.diffusion.holding import held
 from nmm.diffusion.matrices import products, slopes
-from nmm.diffusion.problem import DiffusionProblem, field_solver
+from nmm.diffusion.problem import DiffusionProblem, VolumeSource, field_solver
 from nmm.formulation import CoverTable, Solver
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
@@ -40,6 +43,29 @@ def test_what_is_stored_converges_in_time_with_the_order_of_theta(theta, order):
     odd = np.arange(1, 60, 2)
     one = (np.exp(-(odd**2) * np.pi**2 * 0.1) / odd**2).sum()
     assert 1 + exact == pytest.approx(64 / np.pi**4 * one**2, abs=2e-3)
+
+
+def even(source):
+    """The square insulated, one everywhere, with so much given to every volume."""
+    found = course(1.0)
+    problem, one = found.problem, found.problem.space.one
+    load = VolumeSource("source", source * (problem.capacity @ one), steadily)
+    problem = replace(problem, edges=[], sources=[load] if source else [])
+    return Course(problem, FieldAt(0.0, one, {}))
+
+
+def test_an_even_field_that_nothing_loads_is_not_solved_again(monkeypatch):
+    still = even(0.0)
+    monkeypatch.setattr(DiffusionProblem, "stepped", None)
+    assert still.at(1e3).unknowns is still.began.unknowns
+    assert still.at(1e3).time == 1e3
+
+
+def test_a_source_far_below_the_rounding_of_what_flows_to_and_fro_adds_up():
+    one = even(0.0).problem.space.one
+    rise = even(1e-12).at(1e3).unknowns[one == 1] - 1
+    # 1e-9 in numbers about 1, whose rounding grows by the conduction in a step, 1e3.
+    np.testing.assert_allclose(rise, 1e-9, rtol=1e-2)
 
 
 @pytest.mark.parametrize("theta", [0.5, 0.75, 1.0])
