@@ -90,8 +90,10 @@ class ModelContact:
         """Inertia of the bodies as contact needs it."""
         from nmm.contact.solution.momentum import Momentum
 
-        of_blocks, geometry = self.model.of_blocks, self.geometry
-        from_start = geometry.curved if of_blocks else geometry.joined
+        geometry, model = self.geometry, self.model
+        # Exact forces among dependent functions are not always found when a step is solved again.
+        on_meshes = geometry.joined or (self.exact and bool(model.manifold.dependent))
+        from_start = geometry.curved if model.of_blocks else on_meshes
         return Momentum(self.model, self.partners.sides, self._parts.held, from_start)
 
     @cached_property

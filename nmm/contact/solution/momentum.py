@@ -9,7 +9,11 @@ from nmm.assembly.model import Model
 from nmm.assembly.momenta import rigid_masses
 from nmm.assembly.motion import State, middle
 from nmm.assembly.moved_bodies import entries
-from nmm.contact.detection.tolerances import MIDPOINT_GAPS, MIDPOINT_GAPS_OF_MESHES
+from nmm.contact.detection.tolerances import (
+    MIDPOINT_GAPS,
+    MIDPOINT_GAPS_OF_MESHES,
+    MIDPOINT_WAYS,
+)
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.half_way.mean_motion import MeanMotion
@@ -51,9 +55,14 @@ class Momentum:
         if used is not None:
             turned, moved = _motion(used, middle(before, after))
         motions = turn, way + turn * self._across, turned, moved
-        pressing = _pressing(solved.contacts, solved.answer)
-        share = MIDPOINT_GAPS if self._model.of_blocks else MIDPOINT_GAPS_OF_MESHES
-        if matters(pressing, self._bodies, motions, share) or _lags(solved, share):
+        edge_a, edge_b, force, gap = _pressing(solved.contacts, solved.answer)
+        share = MIDPOINT_GAPS
+        if not self._model.of_blocks:
+            # Exact contacts have no penetrations to measure by.
+            share, far = MIDPOINT_GAPS_OF_MESHES, MIDPOINT_WAYS * way.max(initial=0.0)
+            gap = np.maximum(np.abs(gap), far)
+        pressing = edge_a, edge_b, force, gap
+        if matters(pressing, self._bodies, motions, share) or _lags(solved, gap, share):
             return middle(before, after)
         return None
 
@@ -150,13 +159,12 @@ class Momentum:
         return np.where(np.repeat(self._held, 3), 0.0, self._compliance_of_all)
 
 
-def _lags(solved: ContactSolution, share: float) -> bool:
-    """Whether forces did other work than those of the last solution, by a ``share`` of theirs."""
+def _lags(solved: ContactSolution, gap: Floats, share: float) -> bool:
+    """Whether forces did other work than before, by a ``share`` of theirs through gaps (m,)."""
     if solved.rows is None or solved.rows.whole is None:
         return False
     answer = solved.answer
-    missed = solved.rows.whole.missed(answer)
-    return missed > share * float(np.abs(answer.normal_force) @ np.abs(answer.gap))
+    return solved.rows.whole.missed(answer) > share * float(np.abs(answer.normal_force) @ gap)
 
 
 def _pressing(contacts: ContactPoints, found: ContactPoints | StepAnswer) -> Pressing:

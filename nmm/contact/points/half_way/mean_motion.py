@@ -49,9 +49,14 @@ class MeanMotion(Transform):
 
     def apply(self, problem: StepProblem) -> StepProblem:
         """See `Transform.apply`."""
-        gap, slip = self.opened
-        force = problem.force - self.push(*self.forces)
-        return with_parts(problem, gap=problem.gap + gap, slip=problem.slip + slip, force=force)
+        (gap, slip), push = self.opened, self.push(*self.forces)
+        return with_parts(
+            problem,
+            gap=problem.gap + gap,
+            slip=problem.slip + slip,
+            force=problem.force - push,
+            among=None if problem.among is None else problem.among + np.abs(push),
+        )
 
     def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
         """See `Transform.undo`: gaps and slips are those at the end of the step."""
