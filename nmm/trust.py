@@ -18,7 +18,7 @@ from types import ModuleType
 
 
 @dataclass(frozen=True)
-class Trust:
+class UserTrust:
     """What the user has said.
 
     Attributes
@@ -33,11 +33,11 @@ class Trust:
     folders: tuple[str, ...] = ()
 
 
-NOBODY = Trust()
-_GIVEN: ContextVar[Trust] = ContextVar("trust", default=NOBODY)
+NOBODY = UserTrust()
+_GIVEN: ContextVar[UserTrust] = ContextVar("trust", default=NOBODY)
 
 
-def given() -> Trust:
+def given() -> UserTrust:
     """Return what may be imported now."""
     return _GIVEN.get()
 
@@ -55,7 +55,7 @@ def allowing(*modules: str, folder: str | Path | None = None) -> Iterator[None]:
     """
     now = _GIVEN.get()
     own = () if folder is None else (str(Path(folder).resolve()),)
-    token = _GIVEN.set(Trust(now.modules | set(modules), (*now.folders, *own)))
+    token = _GIVEN.set(UserTrust(now.modules | set(modules), (*now.folders, *own)))
     try:
         yield
     finally:

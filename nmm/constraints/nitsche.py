@@ -24,7 +24,7 @@ from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface, Triplets, joined, product
 from nmm.constraints.linear_matter import check_linear
 from nmm.constraints.nitsche_terms import against_ground, between_bodies
-from nmm.constraints.volume_lift import Lift
+from nmm.constraints.volume_lift import PressureLift
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class Nitsche(Imposition):
     penalty: Floats
     fluxes: tuple[Flux, ...]
     ghost: csc_array | None = None
-    lift: Lift | None = None
+    lift: PressureLift | None = None
 
     words: ClassVar[str] = "Nitsche's method"
     reads: ClassVar[frozenset[str] | None] = frozenset({"gamma", "ghost"})

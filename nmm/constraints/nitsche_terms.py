@@ -18,7 +18,7 @@ from nmm.assembly.tractions.element_bounds import element_bounds
 from nmm.constraints.imposition import Method
 from nmm.constraints.interface import Interface
 from nmm.constraints.nitsche_bounds import edge_bound
-from nmm.constraints.volume_lift import Lift, lift
+from nmm.constraints.volume_lift import PressureLift, lift
 
 # Nitsche's penalty in (lambda + 2 mu) / h by degree of the local functions: measured to keep the
 # matrix positive down to cuts of 1e-6 of a cell.
@@ -30,7 +30,7 @@ SOFTEST = 4.0
 # and from the tolerance of the estimate; between bodies another two for how sides share an energy.
 SAFETY_GROUND, SAFETY_BODIES = 2.0, 4.0
 
-Terms = tuple[Floats, tuple[Flux, ...], csc_array | None, Lift | None]
+Terms = tuple[Floats, tuple[Flux, ...], csc_array | None, PressureLift | None]
 
 
 def against_ground(model: Model, interface: Interface, method: Method) -> Terms:

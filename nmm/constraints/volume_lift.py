@@ -26,7 +26,7 @@ SHARE = 8.0
 
 
 @dataclass(frozen=True)
-class Lift:
+class PressureLift:
     """The pressures beside an edge.
 
     Attributes
@@ -82,7 +82,7 @@ class Lift:
         return np.asarray(self.root.T @ (self.root @ volume))
 
 
-def lift(model: Model, sides: Sequence[tuple[Ints, Floats, Floats]]) -> Lift | None:
+def lift(model: Model, sides: Sequence[tuple[Ints, Floats, Floats]]) -> PressureLift | None:
     """Return the pressures at points of edges; None where the material has none.
 
     Both sides are one: a patch may have edges of which it is the first side, and others of which
@@ -110,7 +110,7 @@ def lift(model: Model, sides: Sequence[tuple[Ints, Floats, Floats]]) -> Lift | N
     root = csr_array(np.sqrt(model.thickness) * known.root[:, wanted])
     root = csr_array(root[np.diff(root.indptr) > 0])
     share = np.full(len(wanted), SHARE)
-    return Lift(wanted, csr_array(known.divergence[wanted]), root, weights, share)
+    return PressureLift(wanted, csr_array(known.divergence[wanted]), root, weights, share)
 
 
 def _of_patches(root: csr_array, seen: Ints) -> Ints:
@@ -125,7 +125,7 @@ def _of_patches(root: csr_array, seen: Ints) -> Ints:
     return np.flatnonzero(np.isin(patch, patch[seen]))
 
 
-def sharing(lifts: Sequence[Lift | None]) -> list[Lift | None]:
+def sharing(lifts: Sequence[PressureLift | None]) -> list[PressureLift | None]:
     """Return lifts of edges that leave half of every patch they share to other edges."""
     found = [item for item in lifts if item is not None]
     count = np.zeros(1 + max((int(item.wanted.max()) for item in found), default=0))

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Standing:
+class PathState:
     """Where a path stands.
 
     Attributes
@@ -77,14 +77,14 @@ class Control(ABC):
         """Make it from ``[loading.control]`` of a scene."""
 
     @abstractmethod
-    def row(self, at: Standing) -> Floats:
+    def row(self, at: PathState) -> Floats:
         """(n,) change of what is controlled by that of the unknowns."""
 
-    def share(self, at: Standing) -> float:
+    def share(self, at: PathState) -> float:
         """Change of what is controlled by that of the load factor."""
         return 0.0
 
-    def path(self, at: Standing, target: float) -> PathEquation:
+    def path(self, at: PathState, target: float) -> PathEquation:
         """Return the equation of a step that goes so far."""
         return PathEquation(at.load, self.row(at), self.share(at), target)
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.controls.base import Control, Standing
+from nmm.controls.base import Control, PathState
 
 if TYPE_CHECKING:
     from nmm.scene.tables.loading.control import ControlTable
@@ -36,7 +36,7 @@ class Displacement(Control):
         assert table.increment is not None
         return cls(table.increment, end, tuple(table.monitors), way)
 
-    def row(self, at: Standing) -> Floats:
+    def row(self, at: PathState) -> Floats:
         """See `Control.row`."""
         total = np.zeros_like(at.load)
         for sign, name in zip((1.0, -1.0), self.monitors, strict=False):

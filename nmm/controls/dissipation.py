@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, ClassVar, Self
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.controls.base import Control, Standing
+from nmm.controls.base import Control, PathState
 
 if TYPE_CHECKING:
     from nmm.scene.tables.loading.control import ControlTable
@@ -35,10 +35,10 @@ class Dissipation(Control):
         """See `Control.idle`."""
         return not softened
 
-    def row(self, at: Standing) -> Floats:
+    def row(self, at: PathState) -> Floats:
         """See `Control.row`."""
         return np.asarray(at.state.load_factor * at.load / 2)
 
-    def share(self, at: Standing) -> float:
+    def share(self, at: PathState) -> float:
         """See `Control.share`."""
         return -float(at.load @ at.way) / 2

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, ClassVar, Self
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.controls.base import Control, Standing
+from nmm.controls.base import Control, PathState
 
 if TYPE_CHECKING:
     from nmm.scene.tables.loading.control import ControlTable
@@ -24,10 +24,10 @@ class NextEvent(Control):
         """See `Control.of`."""
         return cls(1.0)
 
-    def row(self, at: Standing) -> Floats:
+    def row(self, at: PathState) -> Floats:
         """See `Control.row`."""
         return np.zeros_like(at.load)
 
-    def share(self, at: Standing) -> float:
+    def share(self, at: PathState) -> float:
         """See `Control.share`."""
         return 1.0

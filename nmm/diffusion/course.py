@@ -68,7 +68,7 @@ def _parts(field: FieldAt) -> Parts:
     return *known, field.taken_in
 
 
-class Course:
+class FieldCourse:
     """What a field was and becomes.
 
     Parameters

@@ -16,7 +16,7 @@ from integration.arrays import Floats, Ints
 from nmm.assembly.kept import KeptOfArray
 from nmm.assembly.motion import State
 from nmm.diffusion.carried_field import carried_field
-from nmm.diffusion.course import Course, FieldAt
+from nmm.diffusion.course import FieldAt, FieldCourse
 from nmm.diffusion.field_stress import FieldStress
 from nmm.diffusion.matrices import element_slopes
 from nmm.diffusion.problem import DiffusionProblem
@@ -61,7 +61,7 @@ class FieldEffect(Effect):
 
     def __init__(
         self,
-        course: Course,
+        course: FieldCourse,
         stress: FieldStress | None,
         conductivity: Floats,
         second: float = 1.0,
@@ -196,11 +196,11 @@ class FieldEffect(Effect):
 
 def course_of(
     setup: Setup, problem: DiffusionProblem, initial: Floats | None, second: float
-) -> Course:
+) -> FieldCourse:
     """Return the course of a field from its start (n,); None where it is steady."""
     asked, start = setup.formulation.diffusion or Diffusion(), None
     if initial is not None:
         time = setup.start.time * second
         unknowns = np.where(problem.free, initial, problem.held(time))
         start = FieldAt(time, unknowns, {})
-    return Course(problem, start, asked.theta, asked.step)
+    return FieldCourse(problem, start, asked.theta, asked.step)

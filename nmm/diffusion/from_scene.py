@@ -14,7 +14,7 @@ from nmm.assembly.places import Place, on_segment
 from nmm.diffusion.determined import undetermined
 from nmm.diffusion.edges import Edge, Factor, of_history
 from nmm.diffusion.holding import held
-from nmm.diffusion.joints import Conductance, Joining, across_blocks, across_cracks
+from nmm.diffusion.joints import Conductance, JointParts, across_blocks, across_cracks
 from nmm.diffusion.matrices import integrals, products, slopes
 from nmm.diffusion.problem import (
     DiffusionProblem,
@@ -31,7 +31,7 @@ Values = Callable[[Floats], Floats]
 
 
 @dataclass(frozen=True)
-class Given:
+class GivenTable:
     """One of the scene's tables: its key, the table, and what it gives.
 
     Attributes
@@ -82,10 +82,10 @@ class FieldTables:
 
     conductivity: Floats
     capacity: Floats | None
-    held: Sequence[Given]
-    exchanges: Sequence[Given]
-    inflows: Sequence[Given]
-    sources: Sequence[Given]
+    held: Sequence[GivenTable]
+    exchanges: Sequence[GivenTable]
+    inflows: Sequence[GivenTable]
+    sources: Sequence[GivenTable]
     conductance: Callable[[Any], Conductance]
     cracks: Sequence[Conductance]
     what: tuple[str, str, str]
@@ -144,7 +144,7 @@ def fitted(setup: Setup, space: ScalarSpace, chosen: Bools, values: Values) -> F
     return found
 
 
-def _place(setup: Setup, given: Given) -> Place:
+def _place(setup: Setup, given: GivenTable) -> Place:
     manifold, item = setup.model.manifold, given.item
     order = 2 * manifold.degree + 2
     place = on_segment(manifold, np.array(item.segment), setup.regions(item.block), order)
@@ -180,7 +180,7 @@ def _edges(setup: Setup, space: ScalarSpace, tables: FieldTables) -> Iterator[Ed
 def _joints(setup: Setup, space: ScalarSpace, tables: FieldTables) -> Iterator[Edge]:
     """Yield what joints between blocks and the faces of cracks conduct."""
     scene, materials = setup.scene, list(setup.scene.materials)
-    joining = Joining(space, setup.model, tables.conductivity)
+    joining = JointParts(space, setup.model, tables.conductivity)
 
     def conductance(a: int, b: int) -> Conductance:
         pair = (materials[setup.region_material[one]] for one in (a, b))

@@ -20,7 +20,7 @@ Conductance = float | Literal["perfect"] | None
 
 
 @dataclass(frozen=True)
-class Joining:
+class JointParts:
     """What joints are made from: functions, model, conductivity (E,) and degree of edge rules."""
 
     space: ScalarSpace
@@ -34,7 +34,7 @@ class Joining:
 
 
 def across_blocks(
-    joining: Joining, conductance: Callable[[int, int], Conductance], name: str
+    joining: JointParts, conductance: Callable[[int, int], Conductance], name: str
 ) -> Iterator[Edge]:
     """Yield the joints of edges that bodies share in the reference place.
 
@@ -69,7 +69,7 @@ def crack_faces(model: Model) -> Bools:
 
 
 def across_cracks(
-    joining: Joining, conductance: Sequence[Conductance], name: str
+    joining: JointParts, conductance: Sequence[Conductance], name: str
 ) -> Iterator[Edge]:
     """Yield the joints of cracks that conduct; ``conductance`` of each crack of the cut."""
     boundary = joining.model.cut.boundary
@@ -85,7 +85,7 @@ def across_cracks(
         yield from _joined(joining, sides, sides[0].piece, values, name)
 
 
-def _faces(joining: Joining, boundary: CutBoundary, first: Bools) -> tuple[Place, Place]:
+def _faces(joining: JointParts, boundary: CutBoundary, first: Bools) -> tuple[Place, Place]:
     """Gauss points of edges and the same points of the edges opposite."""
     manifold = joining.model.manifold
     one = on_edges(manifold, first, joining.order)
@@ -97,7 +97,7 @@ def _faces(joining: Joining, boundary: CutBoundary, first: Bools) -> tuple[Place
 
 
 def _joined(
-    joining: Joining,
+    joining: JointParts,
     sides: Sequence[Place],
     piece: Ints | None,
     values: Sequence[Conductance],

@@ -9,13 +9,13 @@ from nmm.effects.base import Setup
 from nmm.errors import Fault, GeometryError
 
 if TYPE_CHECKING:
-    from nmm.scene.actions import Placed
+    from nmm.scene.actions import PlacedTable
     from nmm.scene.tables.shaking.boundaries import FreeFieldTable, ViscousBoundaryTable
 
-    OnEdges = Placed | FreeFieldTable | ViscousBoundaryTable
+    OnEdges = PlacedTable | FreeFieldTable | ViscousBoundaryTable
 
 
-def acting_place(setup: Setup, key: str, table: "Placed", order: int) -> Place:
+def acting_place(setup: Setup, key: str, table: "PlacedTable", order: int) -> Place:
     """Return the material at the point of a table ``[[key]]``, else what `edge_place` returns.
 
     Raises

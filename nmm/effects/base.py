@@ -14,8 +14,8 @@ from integration.arrays import Floats, Ints
 from nmm.assembly.motion import State
 from nmm.assembly.pushes import Pushes, PushesIn
 from nmm.assembly.stress_points import PressureAt, StressAt
-from nmm.effects.given.setup import Acting as Acting
 from nmm.effects.given.setup import Setup as Setup
+from nmm.effects.given.setup import StageLoads as StageLoads
 from nmm.effects.given.steps import Instant as Instant
 from nmm.effects.given.steps import Span as Span
 from nmm.effects.given.steps import StepForce as StepForce

@@ -8,10 +8,10 @@ import numpy as np
 from nmm.effects.base import Instant, Setup
 
 if TYPE_CHECKING:
-    from nmm.scene.actions import Placed, SupportTable
+    from nmm.scene.actions import PlacedTable, SupportTable
 
 
-def load_factor(setup: Setup, load: "Placed") -> Callable[[Instant], float]:
+def load_factor(setup: Setup, load: "PlacedTable") -> Callable[[Instant], float]:
     """Return the factor of a load: its history, times the load factor if it is scaled.
 
     Without ``[loading]`` all loads are scaled: from 0 to 1 in statics, by 1 in dynamics.

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 # Share of what is out of balance on the faces that forces there may miss.
 MISSED = 1e-3
 
-Carried = tuple[Reactions, Ints, Floats, Floats]
+CarriedLoad = tuple[Reactions, Ints, Floats, Floats]
 
 
 class UnreleasedForces(Effect):
@@ -125,11 +125,11 @@ class UnreleasedForces(Effect):
         share = self._share(state.load_factor)
         return {"share": float(share.max(initial=0.0))}
 
-    def carried(self) -> Carried:
+    def carried(self) -> CarriedLoad:
         """See `Effect.carried`."""
         return self.forces, self.region, self.first, self.last
 
-    def carry(self, carried: Carried) -> None:
+    def carry(self, carried: CarriedLoad) -> None:
         """See `Effect.carry`."""
         self._take(*carried)
 

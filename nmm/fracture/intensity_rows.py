@@ -12,7 +12,7 @@ from nmm.assembly.motion import Frames
 from nmm.assembly.pushes import Density, Pushes
 from nmm.assembly.stress_points import StressAt
 from nmm.fracture.auxiliary import Auxiliary
-from nmm.fracture.interaction import Field, Interaction, Pulled, Traction, Weighed
+from nmm.fracture.interaction import Field, Interaction, InteractionWeights, Pulled, Traction
 
 # Part of the radius of a domain over which slopes of stress are taken, within one element's field.
 NEARBY = 1e-4
@@ -51,7 +51,7 @@ class IntensityRows:
     pressures: Floats | None
     fixed: Floats
     pulled: tuple[Pulled, ...]
-    weighed: tuple[Weighed, ...]
+    weighed: tuple[InteractionWeights, ...]
     about: Interaction
 
     @classmethod
@@ -72,9 +72,11 @@ class IntensityRows:
         about = Interaction(model, fields, radius, body)
         volume = list(about.over_elements())
         faces = list(about.over_faces(face_traction))
-        weighed = [part for part, _ in volume] + [p for p in faces if isinstance(p, Weighed)]
+        weighed = [part for part, _ in volume] + [
+            p for p in faces if isinstance(p, InteractionWeights)
+        ]
         weighed = [part for part in weighed if len(part.points)]
-        fixed = sum((p for p in faces if not isinstance(p, Weighed)), start=np.zeros(2))
+        fixed = sum((p for p in faces if not isinstance(p, InteractionWeights)), start=np.zeros(2))
         stiff = 8 * shear / (kappa + 1)
         total = np.sum([_on_unknowns(model, part) for part in weighed], axis=0)
         held = model.pressures if model.projected else None
@@ -174,7 +176,7 @@ class IntensityRows:
         return self.stiff / 2 * total
 
 
-def _on_unknowns(model: Model, part: Weighed) -> Floats:
+def _on_unknowns(model: Model, part: InteractionWeights) -> Floats:
     """Factors (2, n) of the unknowns, from those of the gradient at places."""
     index, rows = model.manifold.gradient_rows(part.owner, part.points)
     m, n = part.gradient.shape[:2]

@@ -32,7 +32,7 @@ STRAIGHT = 1e-6
 
 
 @dataclass(frozen=True)
-class Weighed:
+class InteractionWeights:
     """By what displacements at places count in the integrals of both modes.
 
     Attributes
@@ -114,7 +114,7 @@ class Interaction:
         found[elements] = branches(self.model.cut, self.fields.tip, elements, one_part).bearing
         return found
 
-    def over_elements(self) -> Iterator[tuple[Weighed, Pulled]]:
+    def over_elements(self) -> Iterator[tuple[InteractionWeights, Pulled]]:
         """Yield what counts over the material."""
         near, point = self._elements, self.fields.tip.point
         polygons = self.model.manifold.elements.take(near)
@@ -135,7 +135,9 @@ class Interaction:
             )
             yield self._density(near[index][rule.owner], rule.points, rule.weights)
 
-    def _density(self, owner: Ints, points: Floats, weights: Floats) -> tuple[Weighed, Pulled]:
+    def _density(
+        self, owner: Ints, points: Floats, weights: Floats
+    ) -> tuple[InteractionWeights, Pulled]:
         """What counts at points (m, 2) of elements (m,) with areas (m,)."""
         q, dq = self.fields.cutoff(points, self.radius)
         ahead, both = self.fields.tip.direction, self._auxiliary(owner, points)
@@ -153,7 +155,7 @@ class Interaction:
             on_gradient.append(_outer(np.einsum("mij,mj->mi", of_v, dq), ahead))
         return self._weighed(owner, points, weights, on_stress, on_gradient), pulled
 
-    def over_faces(self, traction: Traction | None) -> Iterator[Weighed | Floats]:
+    def over_faces(self, traction: Traction | None) -> Iterator[InteractionWeights | Floats]:
         """Yield what counts over faces of cracks and over the boundary, and fixed parts (2,).
 
         Straight behind the tip nothing but a traction on the faces has a part in it, and elsewhere
@@ -214,7 +216,9 @@ class Interaction:
         modes = self._auxiliary(owner, points)
         return np.array([np.sum(pull * (v @ ahead)) for v in modes])
 
-    def _along(self, edges: Ints, points: Floats, weights: Floats, held: bool) -> Weighed:
+    def _along(
+        self, edges: Ints, points: Floats, weights: Floats, held: bool
+    ) -> InteractionWeights:
         """What counts on any edges; with the traction of the stress where they are ``held``."""
         owner, flat, out = self._flat(edges, points)
         ahead = self.fields.tip.direction
@@ -240,7 +244,7 @@ class Interaction:
         weights: Floats,
         on_stress: list[Floats],
         on_gradient: list[Floats],
-    ) -> Weighed:
+    ) -> InteractionWeights:
         """Gather factors (m, 2, 2) of stress and gradient of both modes, times weights (m,)."""
         model = self.model
         law = model.drained[owner] if model.projected else model.elasticity[owner]
@@ -249,7 +253,7 @@ class Interaction:
             for stress, gradient in zip(on_stress, on_gradient, strict=True)  # two modes
         ]
         scale = weights[:, None, None, None]
-        return Weighed(
+        return InteractionWeights(
             owner, points, scale * np.stack(parts, axis=1), scale * np.stack(on_stress, axis=1)
         )
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats
-from nmm.diffusion.from_scene import FieldTables, Given, field_problem, of_elements, sloping
+from nmm.diffusion.from_scene import FieldTables, GivenTable, field_problem, of_elements, sloping
 from nmm.diffusion.problem import DiffusionProblem
 from nmm.effects.base import Setup
 
@@ -27,11 +27,11 @@ def heat_problem(setup: Setup, space: ScalarSpace) -> DiffusionProblem:
     if scene.heat.transient:
         stored = of_elements(setup, "density") * of_elements(setup, "heat_capacity")
     held = [
-        Given("temperatures", one, partial(sloping, one, one.temperature - reference))
+        GivenTable("temperatures", one, partial(sloping, one, one.temperature - reference))
         for one in scene.temperatures
     ]
     around = [
-        Given("convections", one, partial(_even, one.temperature - reference), one.coefficient)
+        GivenTable("convections", one, partial(_even, one.temperature - reference), one.coefficient)
         for one in scene.convections
     ]
     tables = FieldTables(
@@ -39,8 +39,8 @@ def heat_problem(setup: Setup, space: ScalarSpace) -> DiffusionProblem:
         capacity=stored,
         held=held,
         exchanges=around,
-        inflows=[Given("heat_fluxes", one, amount=one.flux) for one in scene.heat_fluxes],
-        sources=[Given("heat_sources", one, amount=one.power) for one in scene.heat_sources],
+        inflows=[GivenTable("heat_fluxes", one, amount=one.flux) for one in scene.heat_fluxes],
+        sources=[GivenTable("heat_sources", one, amount=one.power) for one in scene.heat_sources],
         conductance=lambda interface: interface.conductance,
         cracks=[crack.conductance for crack in scene.cracks],
         what=LOOSE,

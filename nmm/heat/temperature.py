@@ -10,7 +10,7 @@ from integration.arrays import Floats
 from nmm.assembly.kept import KeptOfArray
 from nmm.assembly.matter import SWELLING, Matter
 from nmm.assembly.motion import State
-from nmm.diffusion.course import Course
+from nmm.diffusion.course import FieldCourse
 from nmm.diffusion.field_effect import FieldEffect, course_of
 from nmm.diffusion.from_scene import of_elements
 from nmm.effects.base import Instant, Setup
@@ -34,7 +34,7 @@ class Heat(FieldEffect):
 
     def __init__(
         self,
-        course: Course,
+        course: FieldCourse,
         strain: ThermalStrain | None,
         conductivity: Floats,
         reference: float = 0.0,

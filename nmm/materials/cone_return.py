@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from integration.arrays import Bools, Floats
-from nmm.materials.planes import BEYOND, Planes, ReturnedStress, Weakening, return_to_planes
+from nmm.materials.planes import BEYOND, Planes, ReturnedStress, StrengthLoss, return_to_planes
 from nmm.materials.radial_return import DEVIATOR, TWICE, VOLUME
 
 MEAN = np.array([1.0, 1.0, 0.0, 1.0])
@@ -78,7 +78,7 @@ class SmoothCone:
 
 
 def cone_return(
-    strain: Floats, plastic: Floats, cone: SmoothCone, weakening: Weakening
+    strain: Floats, plastic: Floats, cone: SmoothCone, weakening: StrengthLoss
 ) -> ReturnedStress:
     """Return stresses to the cone; ``strain`` (m, 3) whole, ``plastic`` (m, 4) before."""
     elastic = np.column_stack([strain, np.zeros(len(strain))]) - plastic
@@ -102,7 +102,7 @@ def cone_return(
 
 
 def _returned(
-    trial: Floats, deviator: Floats, cone: SmoothCone, weakening: Weakening
+    trial: Floats, deviator: Floats, cone: SmoothCone, weakening: StrengthLoss
 ) -> ReturnedStress:
     """Return stresses of points beyond the cone, and by how much their plastic strain grows.
 

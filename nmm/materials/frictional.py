@@ -10,7 +10,7 @@ from integration.arrays import Floats
 from nmm.errors import Fault, FormulationError
 from nmm.materials.base import History, Response
 from nmm.materials.crack_band import SofteningPlasticity, check_residual
-from nmm.materials.planes import Planes, ReturnedStress, Weakening, largest_cell
+from nmm.materials.planes import Planes, ReturnedStress, StrengthLoss, largest_cell
 from nmm.materials.plasticity import flowed, grown
 
 
@@ -108,12 +108,12 @@ class Frictional(SofteningPlasticity):
         more = {"softened": np.zeros(1)} if self.sized else {}
         return {**super().variables(plane), **more}
 
-    def weakening(self, history: History) -> Weakening:
+    def weakening(self, history: History) -> StrengthLoss:
         """Return how far the strengths of points have fallen."""
         if self.softening_energy is None:
-            return Weakening.none(len(history["plastic_strain"]))
+            return StrengthLoss.none(len(history["plastic_strain"]))
         speed = history["cell_size"][:, 0] / 2 / self.softening_energy
-        return Weakening(history["softened"][:, 0], speed)
+        return StrengthLoss(history["softened"][:, 0], speed)
 
     def answer(self, found: ReturnedStress, history: History) -> Response:
         """Return the response of points whose stress has returned."""

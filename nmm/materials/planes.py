@@ -27,7 +27,7 @@ BEYOND = 1e-10
 
 
 @dataclass(frozen=True)
-class Weakening:
+class StrengthLoss:
     """How far strengths have fallen.
 
     Attributes
@@ -89,7 +89,7 @@ class Planes:
         """``dL . g`` (Pa) for strengths that fall by all of ``dL`` at one trial."""
         return float(self.falls @ self.inverse @ self.falls)
 
-    def returned(self, trial: Floats, weakening: Weakening) -> tuple[Floats, Floats, Floats]:
+    def returned(self, trial: Floats, weakening: StrengthLoss) -> tuple[Floats, Floats, Floats]:
         """Return stress (m, d), flow (m, p) and share of the fall (m,) where these planes act."""
         done = weakening.done
         if self.eased == 0:  # perfectly plastic
@@ -100,7 +100,7 @@ class Planes:
         flow = flow + np.outer(after - done, self.inverse @ self.falls)
         return trial @ self.keeps.T + self._strength(after) @ self.back.T, flow, after
 
-    def tangent(self, weakening: Weakening, after: Floats) -> Floats:
+    def tangent(self, weakening: StrengthLoss, after: Floats) -> Floats:
         """Derivative (m, d, d), or (d, d) of all, of the returned stress by the trial's."""
         if self.eased == 0:
             return self.keeps
@@ -111,7 +111,7 @@ class Planes:
     def _strength(self, done: Floats) -> Floats:
         return np.asarray(self.strength - np.outer(done, self.falls))
 
-    def _speed(self, weakening: Weakening) -> Floats:
+    def _speed(self, weakening: StrengthLoss) -> Floats:
         """By how much ``D`` grows with ``dL . g`` at the strengths of the start (m,), in 1/Pa."""
         return np.asarray(weakening.speed / (1 - weakening.speed * self.eased))
 
@@ -143,7 +143,7 @@ def largest_cell(sets: Sequence[Planes], energy: float) -> float:
 def return_to_planes(
     trial: Floats,
     sets: Sequence[Planes],
-    weakening: Weakening,
+    weakening: StrengthLoss,
     beyond: Callable[[Floats, Floats], Floats],
     scale: tuple[float, Floats],
 ) -> tuple[Floats, Floats, Floats]:

@@ -15,20 +15,20 @@ from nmm.materials.planes import (
     BEYOND,
     Planes,
     ReturnedStress,
-    Weakening,
+    StrengthLoss,
     falling,
     return_to_planes,
 )
 
 # In-plane principal stresses closer than this share of the largest have no direction.
 EQUAL = 1e-12
-Acting = tuple[tuple[tuple[int, int], ...], tuple[int, ...]]
+StageLoads = tuple[tuple[tuple[int, int], ...], tuple[int, ...]]
 # Pairs of sorted principal stresses whose planes of friction act alone or on the edges where the
 # smaller two or the larger two are equal.
 CONE = (((0, 2),), ((0, 2), (0, 1)), ((0, 2), (1, 2)))
 # Sets with planes of tension: those of the principal stresses that are cut off beside some pairs.
 # The last one is the apex, where there is one.
-CUT: tuple[Acting, ...] = (
+CUT: tuple[StageLoads, ...] = (
     *(((), (0,)), ((), (0, 1)), (((0, 2),), (0,)), (((0, 2), (0, 1)), (0,))),
     *((((0, 2),), (0, 1)), (((0, 2), (1, 2)), (0,)), ((), (0, 1, 2))),
 )
@@ -80,7 +80,7 @@ class Pyramid:
         elastic = lame * np.ones((3, 3)) + 2 * shear * np.eye(3)
         strength = np.array([2 * strengths[0] * np.cos(friction), strengths[1]])
         falls = falling(strength, fall)
-        acting: list[Acting] = [(pairs, ()) for pairs in CONE]
+        acting: list[StageLoads] = [(pairs, ()) for pairs in CONE]
         if np.isfinite(strength[1]):
             acting += CUT
         sets = tuple(_planes(elastic, one, angles, (strength, falls)) for one in acting)
@@ -113,7 +113,7 @@ class Pyramid:
 
 
 def principal_return(
-    strain: Floats, plastic: Floats, pyramid: Pyramid, weakening: Weakening
+    strain: Floats, plastic: Floats, pyramid: Pyramid, weakening: StrengthLoss
 ) -> ReturnedStress:
     """Return stresses to the pyramid; ``strain`` (m, 3) whole, ``plastic`` (m, 4) before.
 
@@ -154,7 +154,7 @@ def _principal(tensor: Floats) -> tuple[Floats, Floats]:
     return _values(tensor), np.arctan2(tensor[:, 2], half) / 2
 
 
-def _returned(elastic: Floats, pyramid: Pyramid, weakening: Weakening) -> ReturnedStress:
+def _returned(elastic: Floats, pyramid: Pyramid, weakening: StrengthLoss) -> ReturnedStress:
     """Return stresses of points beyond the pyramid, and by how much their plastic strain grows.
 
     ``elastic`` (m, 4: xx, yy, 2 xy, zz) are their strains before.
@@ -206,7 +206,7 @@ def _axes(angle: Floats) -> Floats:
 
 def _planes(
     elastic: Floats,
-    acting: Acting,
+    acting: StageLoads,
     angles: tuple[float, float],
     strengths: tuple[Floats, Floats],
 ) -> Planes:

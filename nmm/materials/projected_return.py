@@ -7,7 +7,7 @@ diagonal, so that the return is one equation for one multiplier a point (Simo an
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.materials.radial_return import BEYOND, Returned
+from nmm.materials.radial_return import BEYOND, RadialReturn
 
 # Iterations for the multiplier; from zero they rise to it, three or four are enough.
 MOST, ENOUGH = 50, 1e-14
@@ -21,7 +21,7 @@ def projected_return(
     plastic: Floats,
     accumulated: Floats,
     constants: tuple[float, float, float, float],
-) -> Returned:
+) -> RadialReturn:
     """Return stresses to the yield surface in plane stress; see `radial_return`."""
     e, nu, yields, hardens = constants
     elastic = e / np.array([1 - nu, 1 + nu, 2 * (1 + nu)])
@@ -37,7 +37,7 @@ def projected_return(
     after = plastic + np.column_stack([flow, -flow[:, 0] - flow[:, 1]])
     back = np.column_stack([stress @ AXES, np.zeros(len(stress))])
     tangent = AXES.T @ _tangent(stress, multiplier, flows, elastic, hardens) @ AXES
-    return Returned(back, tangent, after, grown)
+    return RadialReturn(back, tangent, after, grown)
 
 
 def _multiplier(

@@ -16,7 +16,7 @@ TWICE = np.array([1.0, 1.0, 2.0, 1.0])
 
 
 @dataclass(frozen=True)
-class Returned:
+class RadialReturn:
     """Stresses (m, 4: xx, yy, xy, zz) back at the yield surface, with tangent (m, 3, 3).
 
     ``plastic_strain`` (m, 4) is (xx, yy, 2 xy, zz), ``accumulated`` (m,).
@@ -33,7 +33,7 @@ def radial_return(
     plastic: Floats,
     accumulated: Floats,
     constants: tuple[float, float, float | Floats, float | Floats],
-) -> Returned:
+) -> RadialReturn:
     """Return stresses to the yield surface (Wilkins 1964; tangent of Simo and Taylor 1985).
 
     Parameters
@@ -57,7 +57,7 @@ def radial_return(
     if not flows.any():
         stress = trial + bulk * volume[:, None] * np.array([1, 1, 0, 1])
         tangent = np.broadcast_to(elastic_tangent, (len(strain), 3, 3))
-        return Returned(stress, tangent, plastic, accumulated)
+        return RadialReturn(stress, tangent, plastic, accumulated)
     more = np.where(flows, (size - limit) / (3 * shear + hardens), 0.0)
     way = trial / np.where(norm > 0, norm, 1.0)[:, None]
     left = 1 - 3 * shear * more / np.where(flows, size, 1.0)
@@ -70,4 +70,4 @@ def radial_return(
         + 2 * shear * left[:, None, None] * DEVIATOR
         - 2 * shear * softer[:, None, None] * along[:, :, None] * along[:, None, :]
     )
-    return Returned(stress, tangent, grown, accumulated + more)
+    return RadialReturn(stress, tangent, grown, accumulated + more)

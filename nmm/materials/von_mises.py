@@ -11,7 +11,7 @@ from nmm.materials.base import History, Response
 from nmm.materials.crack_band import SofteningPlasticity, check_residual
 from nmm.materials.plasticity import flowed, inelastic
 from nmm.materials.projected_return import projected_return
-from nmm.materials.radial_return import Returned, radial_return
+from nmm.materials.radial_return import RadialReturn, radial_return
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ class VonMisesPlasticity(SofteningPlasticity):
         last = (self.yield_stress - self.residual_stress) / slope
         before = history["accumulated_plastic_strain"][:, 0]
 
-        def returned(left: Bools) -> Returned:
+        def returned(left: Bools) -> RadialReturn:
             yields = np.where(left, self.residual_stress, self.yield_stress)
             falls = np.where(left, 0.0, -slope)
             constants = self.young_modulus, self.poisson_ratio, yields, falls
@@ -111,5 +111,5 @@ class VonMisesPlasticity(SofteningPlasticity):
         return np.asarray(super().energy(stress, history, plane) + hard / 2)
 
 
-def _flowed(history: History, found: Returned) -> Response:
+def _flowed(history: History, found: RadialReturn) -> Response:
     return flowed(history, found.stress, found.tangent, found.plastic_strain, found.accumulated)

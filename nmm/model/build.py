@@ -15,7 +15,7 @@ from nmm.geometry.geometry import Geometry
 from nmm.materials.base import MATERIAL_LAWS, Law
 from nmm.model.covering import local_functions
 from nmm.model.enriching import with_growing_tips, without_opened_corners
-from nmm.model.from_polygons import Sheet, covered
+from nmm.model.from_polygons import BlockMatter, covered
 
 if TYPE_CHECKING:
     from covers.cutting.cut import Cutting
@@ -117,7 +117,7 @@ def build_model(
         cover = with_growing_tips(cover)
     if before is not None:  # one that has changed
         cover = without_opened_corners(cover, geometry.cracks)
-    sheet = Sheet(
+    sheet = BlockMatter(
         [_sound(name, material_law(item), scene) for name, item in scene.materials.items()],
         np.array([(item.density or 0.0) * has_mass for item in materials]),
         scene.plane,

@@ -100,7 +100,7 @@ class ModelWithEffects(Protocol):
 
 
 @dataclass
-class Current:
+class CurrentDiscretisation:
     """The discretisation of a run as it is now, shared by all that solve its steps."""
 
     discretisation: Discretisation

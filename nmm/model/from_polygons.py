@@ -60,12 +60,12 @@ def solid(
     regions = Regions(polygons, own, names, np.arange(n))
     weights = np.zeros(len(laws)) if density is None else np.array(density, dtype=float)
     lines = tuple(np.asarray(crack, dtype=float) for crack in cracks)
-    sheet = Sheet(laws, weights, plane, thickness, lumped, finite)
+    sheet = BlockMatter(laws, weights, plane, thickness, lumped, finite)
     return covered(Geometry(regions, lines), cover, sheet)
 
 
 @dataclass(frozen=True)
-class Sheet:
+class BlockMatter:
     """What blocks are made of.
 
     Attributes
@@ -91,7 +91,7 @@ class Sheet:
 
 
 def covered(
-    geometry: Geometry, cover: CoverTable, sheet: Sheet, before: "Cutting | None" = None
+    geometry: Geometry, cover: CoverTable, sheet: BlockMatter, before: "Cutting | None" = None
 ) -> Model:
     """Cover a geometry and give the elements the numbers of their materials.
 

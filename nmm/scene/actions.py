@@ -37,7 +37,7 @@ from nmm.scene.tables.loading.expressions import FieldOf
 _HISTORY = "pairs [t, factor] with t increasing"
 
 
-class Placed(Frozen):
+class PlacedTable(Frozen):
     """Something that acts at a place: a point, a segment, a block, or a part of a block."""
 
     name: Name = Field(description=NAME, examples=["left"])
@@ -59,7 +59,7 @@ class Placed(Frozen):
         return value
 
 
-class SupportTable(Placed):
+class SupportTable(PlacedTable):
     """Displacement components that are prescribed at a place."""
 
     fix: Annotated[tuple[Literal["x", "y"], ...], Field(min_length=1)] = Field(

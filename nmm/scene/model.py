@@ -23,7 +23,7 @@ from nmm.scene.actions import (
     InitialVelocityTable,
     Loading,
     MonitorTable,
-    Placed,
+    PlacedTable,
     ReferenceTable,
     SupportTable,
 )
@@ -191,7 +191,7 @@ class Scene(Frozen):
         """Whether nothing that acts may change with the load factor, by itself or by a history."""
         given = (getattr(self, name) for name in type(self).model_fields)
         tables = (one for listed in given if isinstance(listed, tuple | list) for one in listed)
-        acts = [one for one in tables if isinstance(one, Placed)]
+        acts = [one for one in tables if isinstance(one, PlacedTable)]
         changes = (one.history or getattr(one, "field", None) for one in acts)
         return not (self.loads or self.water_pressures or any(changes))
 

@@ -49,7 +49,7 @@ class Bodies:
 
 
 @dataclass(frozen=True)
-class Apart:
+class RigidSplit:
     """A solution ``strain + modes @ rigid``.
 
     Attributes
@@ -85,7 +85,7 @@ def solve_apart(
     held: csc_array,
     load: Floats,
     border: csr_array | None = None,
-) -> Apart:
+) -> RigidSplit:
     """Solve ``(elastic + held) d + border^T m = load`` with rigid motions apart.
 
     Parameters
@@ -129,7 +129,7 @@ def solve_apart(
     )
     size = float(np.linalg.norm(rhs))
     rest = float(np.linalg.norm(rhs - product(z)))
-    return Apart(z[:n], z[n : n + r], z[n + r :], rest / size if size > 0 else rest)
+    return RigidSplit(z[:n], z[n : n + r], z[n + r :], rest / size if size > 0 else rest)
 
 
 def _seen(factor: Factor, measure: csc_array | None) -> Callable[[Floats], Floats]:

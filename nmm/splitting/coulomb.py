@@ -6,7 +6,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.errors import FormulationError
-from nmm.splitting.strength import BlockStrength, Judged, Principal
+from nmm.splitting.strength import BlockStrength, Principal, SplitJudgement
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class CoulombStrength(BlockStrength):
                 "strength: neither tensile_strength nor cohesion: expected one of them: add it"
             )
 
-    def judged(self, stress: Floats) -> Judged:
+    def judged(self, stress: Floats) -> SplitJudgement:
         """See `BlockStrength.judged`."""
         main = Principal.of(stress)
         pulled, sheared = self._pulled(main), self._sheared(main)
@@ -47,7 +47,7 @@ class CoulombStrength(BlockStrength):
         along = main.direction + np.pi / 2  # of the smaller principal stress
         planes = np.stack([along + apart, along - apart], axis=1)
         across = np.stack([along, np.full(len(along), np.nan)], axis=1)
-        return Judged(
+        return SplitJudgement(
             use=np.where(tension, pulled, sheared),
             planes=np.where(tension[:, None], across, planes),
             tension=tension,

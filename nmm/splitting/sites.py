@@ -10,7 +10,7 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.splitting.centres import at_centres
 from nmm.splitting.division import ALIKE
-from nmm.splitting.strength import Judged
+from nmm.splitting.strength import SplitJudgement
 
 Where = Literal["centroid", "elements"]
 
@@ -50,7 +50,7 @@ class Sites:
         remote = np.hypot(*(point - middle[body[own]]).T)
         return cls(csr_array(one, shape=(len(own), len(body))), body[own], point, remote)
 
-    def worst(self, judged: Judged) -> Ints:
+    def worst(self, judged: SplitJudgement) -> Ints:
         """Return the site (b,) of each body that uses most of the strength, in order of bodies.
 
         Of those that use as much it is the one nearest to the middle, so that what is symmetric

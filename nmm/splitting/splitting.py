@@ -22,7 +22,7 @@ from nmm.splitting.division import SplitRules, allowed, parts_of, replaced
 from nmm.splitting.outlines import outlines
 from nmm.splitting.refusals import refuse
 from nmm.splitting.sites import Sites, Where
-from nmm.splitting.strength import STRENGTHS, BlockStrength, Judged
+from nmm.splitting.strength import STRENGTHS, BlockStrength, SplitJudgement
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
@@ -156,7 +156,7 @@ class Splitting(Effect):
         polygons: Polygons,
         sites: Sites,
         chosen: Ints,
-        judged: Judged,
+        judged: SplitJudgement,
         state: State,
         law: SplitLaw,
         room: int,

@@ -10,7 +10,7 @@ from nmm.registry import Registry
 
 
 @dataclass(frozen=True)
-class Judged:
+class SplitJudgement:
     """How near blocks are to splitting.
 
     Attributes
@@ -28,9 +28,9 @@ class Judged:
     planes: Floats
     tension: Bools
 
-    def only(self, chosen: Ints) -> "Judged":
+    def only(self, chosen: Ints) -> "SplitJudgement":
         """Return some of the blocks."""
-        return Judged(self.use[chosen], self.planes[chosen], self.tension[chosen])
+        return SplitJudgement(self.use[chosen], self.planes[chosen], self.tension[chosen])
 
 
 class BlockStrength(ABC):
@@ -41,7 +41,7 @@ class BlockStrength(ABC):
     """
 
     @abstractmethod
-    def judged(self, stress: Floats) -> Judged:
+    def judged(self, stress: Floats) -> SplitJudgement:
         """Judge stresses (m, 3) as xx, yy, xy (Pa), tension positive."""
 
 

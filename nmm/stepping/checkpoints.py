@@ -13,7 +13,7 @@ from nmm.stepping.drive.in_time import InTime
 from nmm.stepping.drive.stages import StagesSoFar
 from nmm.stepping.drive.under_load import UnderLoad
 from nmm.stepping.reports.monitors import monitors
-from nmm.stepping.reports.output import Choice
+from nmm.stepping.reports.output import FrameChoice
 from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.run_state import RunPosition, RunState
 from nmm.stepping.step.stepper import Stepper
@@ -27,11 +27,11 @@ At = TypeVar("At", InTime, UnderLoad, "OnPath")
 
 def checkpoint_choice(
     asked: "CheckpointTable | None", begin: float, in_time: bool
-) -> Choice | None:
+) -> FrameChoice | None:
     """Return after which steps is stored, None is never; time counts in dynamics alone."""
     if asked is None:
         return None
-    return Choice(begin, asked.every_time if in_time else None, asked.every_steps)
+    return FrameChoice(begin, asked.every_time if in_time else None, asked.every_steps)
 
 
 @dataclass
@@ -56,7 +56,7 @@ class Checkpoints:
     recorder: Recorder
     asked: "CheckpointTable | None"
     store: Callable[[Arrays], None]
-    choice: Choice | None = None
+    choice: FrameChoice | None = None
     stages: StagesSoFar | None = None
     _periods: int = 0
 

@@ -10,7 +10,7 @@ from nmm.stepping.after_failure import show_failure
 from nmm.stepping.checkpoints import Checkpoints
 from nmm.stepping.compiled_scene import CompiledScene
 from nmm.stepping.drive.in_time import Schedule
-from nmm.stepping.drive.phases import Ended, Phases
+from nmm.stepping.drive.phases import EndedRun, Phases
 from nmm.stepping.drive.statics import with_unheld
 from nmm.stepping.drive.under_load import Beyond, LoadSchedule, UnderLoad, unseen
 from nmm.stepping.drive.verdict import CONVERGED, FAILURE
@@ -38,7 +38,7 @@ class Drive:
     checkpoints: Checkpoints
     progress: Progress
 
-    def run(self, stood: RunState | None) -> Ended:
+    def run(self, stood: RunState | None) -> EndedRun:
         """Run from the start, or from where a run stood, to the last state and the verdict."""
         self.checkpoints.counting(self.made.start.time, self.made.scene.in_time)
         at = None if stood is None else self.checkpoints.go_on(stood)
@@ -60,7 +60,7 @@ class Drive:
         names, stepper = self.made.regions.name, self.made.stepper
         return Phases(stepper, self.recorder, self.progress, names, self.checkpoints)
 
-    def _creep(self, at: "RunPosition | None") -> Ended:
+    def _creep(self, at: "RunPosition | None") -> EndedRun:
         start, times = self.made.start, self._times("creep")
         loads = LoadSchedule.brought_on(self.made.formulation.loading, start.time, stops=True)
         state, verdict = self._phases.in_balance(start, loads, times, at)
@@ -71,7 +71,7 @@ class Drive:
 
     def _along_path(
         self, at: "RunPosition | None", table: "ControlTable", loads: LoadSchedule
-    ) -> Ended:
+    ) -> EndedRun:
         from nmm.stepping.control.following import run_path
         from nmm.stepping.control.making import control_of
         from nmm.stepping.control.position import OnPath, PathEnd
@@ -84,7 +84,7 @@ class Drive:
         keep = self.checkpoints.keep
         return run_path(stepper, self.recorder, begun, control, end, self.progress, keep)
 
-    def _at_toughness(self, at: "RunPosition | None", loads: LoadSchedule) -> Ended:
+    def _at_toughness(self, at: "RunPosition | None", loads: LoadSchedule) -> EndedRun:
         from nmm.stepping.drive.growth import run_growth
 
         under = at or self.checkpoints.begin(UnderLoad.at_start(self.made.start, loads))
@@ -92,7 +92,7 @@ class Drive:
         keep = self.checkpoints.keep
         return run_growth(self.made.stepper, self.recorder, under, loads, self.progress, keep)
 
-    def _under_loads(self, at: "RunPosition | None", loads: LoadSchedule) -> Ended:
+    def _under_loads(self, at: "RunPosition | None", loads: LoadSchedule) -> EndedRun:
         state, verdict = self._phases.under_loads(self.made.start, loads, at, self._beyond())
         scene = self.made.scene
         asked = None if scene.loading is None else scene.loading.motion_after_failure

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Posed:
+class PosedScene:
     """What is to be solved, and by which parts.
 
     Attributes
@@ -69,7 +69,7 @@ class Posed:
     effects: float
 
 
-def pose(scene: "Scene", formulation: Formulation) -> Posed:
+def pose(scene: "Scene", formulation: Formulation) -> PosedScene:
     """Build geometry, covers and effects, and make the parts that are named.
 
     Raises
@@ -81,7 +81,7 @@ def pose(scene: "Scene", formulation: Formulation) -> Posed:
         return _posed(scene, formulation)
 
 
-def _posed(scene: "Scene", formulation: Formulation) -> Posed:
+def _posed(scene: "Scene", formulation: Formulation) -> PosedScene:
     begun = perf_counter()
     regions = _regions(scene, formulation)
     origin = own_origin(regions.polygons.points)
@@ -102,7 +102,7 @@ def _posed(scene: "Scene", formulation: Formulation) -> Posed:
         with of_stage(later.stage.name):  # its faults are reported before anything is solved
             compile_plan(later.setup)
     _refuse_events(scene, plan)
-    return Posed(
+    return PosedScene(
         scene=scene,
         formulation=formulation,
         regions=regions,

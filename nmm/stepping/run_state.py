@@ -9,8 +9,8 @@ from nmm.stepping.drive.in_time import InTime
 from nmm.stepping.drive.stages import StagesSoFar
 from nmm.stepping.drive.under_load import UnderLoad
 from nmm.stepping.reports.totals import Totals
-from nmm.stepping.reports.zero import Zero
-from nmm.stepping.step.carried import CarriedOver
+from nmm.stepping.reports.zero import ZeroDisplacement
+from nmm.stepping.step.carried import CarriedState
 
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
@@ -40,10 +40,10 @@ class RunState:
     """
 
     at: "RunPosition"
-    carried: CarriedOver
+    carried: CarriedState
     totals: Totals
     stages: StagesSoFar | None = None
-    zero: Zero = field(default_factory=Zero)
+    zero: ZeroDisplacement = field(default_factory=ZeroDisplacement)
 
     def to_arrays(self) -> Arrays:
         """Return it as arrays by name."""
@@ -109,19 +109,19 @@ _PLACES = {
     "nmm.contact.points.joint_book": ("JointBook",),
     "nmm.geometry.blocks": ("Regions",),
     "nmm.geometry.geometry": ("Geometry",),
-    "nmm.stepping.adaptive.control": ("Chosen",),
+    "nmm.stepping.adaptive.control": ("StepChoice",),
     "nmm.stepping.control.position": ("OnPath",),
     "nmm.stepping.drive.in_time": ("InTime",),
     "nmm.stepping.drive.stages": ("StagesSoFar",),
     "nmm.stepping.drive.under_load": ("UnderLoad", "Rest"),
-    "nmm.stepping.reports.accounts": ("Account", "Rise"),
+    "nmm.stepping.reports.accounts": ("EnergySources", "EnergyRise"),
     "nmm.stepping.reports.ledger": ("Ledger",),
     "nmm.stepping.reports.lengths": ("StepLengths",),
-    "nmm.stepping.reports.output": ("Watch",),
+    "nmm.stepping.reports.output": ("EventWatch",),
     "nmm.stepping.reports.totals": ("Totals",),
-    "nmm.stepping.reports.zero": ("Zero",),
+    "nmm.stepping.reports.zero": ("ZeroDisplacement",),
     "nmm.stepping.run_state": ("RunState",),
-    "nmm.stepping.step.carried": ("CarriedOver", "LaidAnew"),
+    "nmm.stepping.step.carried": ("CarriedState", "LaidAnew"),
 }
 KINDS: Kinds = {name: f"{module}:{name}" for module, names in _PLACES.items() for name in names}
 """Dataclasses that a state may hold; no other is made of what a file says."""

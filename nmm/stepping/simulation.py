@@ -34,10 +34,10 @@ from nmm.stepping.compiled_scene import CompiledScene
 from nmm.stepping.drive.changes import topology
 from nmm.stepping.drive.stages import StagesSoFar, enter_again, run_stages
 from nmm.stepping.driving import Drive
-from nmm.stepping.reports.declared import Declared
+from nmm.stepping.reports.declared import DeclaredOutputs
 from nmm.stepping.reports.monitors import Monitor
 from nmm.stepping.reports.output import (
-    Choice,
+    FrameChoice,
     Storage,
     choice_in_time,
     choice_under_loads,
@@ -127,7 +127,7 @@ class Simulation(CompiledScene):
         if self.origin.any():
             sink = MovedBack(sink, self.origin)
         output = self.scene.output
-        declared = Declared.of(output.quantities if output else ())
+        declared = DeclaredOutputs.of(output.quantities if output else ())
         recorder = Recorder(
             self.stepper,
             sink,
@@ -219,7 +219,7 @@ class Simulation(CompiledScene):
         factor = None if found is None else found.factor
         return factor if factor is not None and np.isfinite(factor) else None
 
-    def _choice(self) -> Choice:
+    def _choice(self) -> FrameChoice:
         """Return which states are stored."""
         if not self.scene.in_time or self.scene.duration is None:
             return choice_under_loads(self.scene.output)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from nmm.assembly.motion import State
 from nmm.formulation import Formulation
 from nmm.results.summary import Summary
-from nmm.stepping.audits.base import Ended
+from nmm.stepping.audits.base import EndedRun
 from nmm.stepping.audits.energy import balance
 from nmm.stepping.audits.judge import audit, judged
 from nmm.stepping.drive.verdict import RunVerdict
@@ -46,7 +46,7 @@ def summed_up(
     stepper, totals = recorder.stepper, recorder.totals
     lengths = totals.lengths
     condition, start = stepper.condition(state), totals.since or start
-    findings = audit(Ended(*asked, stepper, recorder, start, state, verdict, condition))
+    findings = audit(EndedRun(*asked, stepper, recorder, start, state, verdict, condition))
     verdict, growth = judged(verdict, findings), stepper.plan.fracture
     load = None if verdict.load_factor is None else stepper.plan.scaled_load(verdict.load_factor)
     return replace(

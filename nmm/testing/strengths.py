@@ -3,7 +3,7 @@
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.splitting.strength import BlockStrength, Judged
+from nmm.splitting.strength import BlockStrength, SplitJudgement
 from nmm.testing.claims import claim, close, finite
 
 # Of angles and shares of strength: rounding of a square root.
@@ -53,7 +53,7 @@ def _turned(stress: Floats, angle: Floats) -> Floats:
     return np.stack([found[0, 0], found[1, 1], found[0, 1]], axis=1)
 
 
-def _same_planes(what: str, found: Judged, expected: Floats) -> None:
+def _same_planes(what: str, found: SplitJudgement, expected: Floats) -> None:
     """Claim that planes are the same, in any order: no plane has a sense."""
     one, other = (_sums(planes) for planes in (found.planes, expected))
     close(what, one, other, 1e-7)  # of stresses nearly alike in all directions

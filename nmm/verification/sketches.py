@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Still:
+class SceneSketch:
     """What a scene looks like before it is run, as pictures want it."""
 
     topologies: list[Topology]
@@ -42,7 +42,7 @@ def sketch_scene(scene: "Scene", path: Path) -> None:
     )
     whole = {one.block for one in scene.supports if not (one.point or one.segment)}
     held = [number for number, name in enumerate(found.name) if name in whole]
-    scene_problem(Still([topology]), scene, held, path)
+    scene_problem(SceneSketch([topology]), scene, held, path)
 
 
 def sketch_solid(

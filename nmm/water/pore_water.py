@@ -16,12 +16,12 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place
 from nmm.assembly.stress_points import ISOTROPIC
-from nmm.diffusion.course import Course
+from nmm.diffusion.course import FieldCourse
 from nmm.diffusion.field_effect import FieldEffect, course_of
 from nmm.diffusion.field_stress import FieldStress
 from nmm.diffusion.from_scene import (
     FieldTables,
-    Given,
+    GivenTable,
     Values,
     field_problem,
     fitted,
@@ -48,7 +48,7 @@ class PoreWater(FieldEffect):
 
     def __init__(
         self,
-        course: Course,
+        course: FieldCourse,
         stress: FieldStress,
         conductivity: Floats,
         ground: Floats,
@@ -166,11 +166,13 @@ def _filling(setup: Setup, space: ScalarSpace) -> "Filling":
     return Filling.of(space, thickness * of_elements(setup, "hydraulic_conductivity"))
 
 
-def _held(setup: Setup, one: "HeadTable", filling: "Filling | None", conductivity: Floats) -> Given:
+def _held(
+    setup: Setup, one: "HeadTable", filling: "Filling | None", conductivity: Floats
+) -> GivenTable:
     """Return a head that is held; above the water it is that of the air, and no water falls in."""
     level: Values = partial(sloping, one, one.head - float(setup.origin[1]))
     if filling is None:
-        return Given("heads", one, level)
+        return GivenTable("heads", one, level)
 
     def air(points: Floats) -> Floats:
         return np.maximum(level(points), points[:, 1])
@@ -181,7 +183,7 @@ def _held(setup: Setup, one: "HeadTable", filling: "Filling | None", conductivit
         filled = filling.filled(depth, place.elements)
         return -conductivity[place.elements] * (1 - filled) * place.normal[:, 1]
 
-    return Given("heads", one, air, besides=empty)
+    return GivenTable("heads", one, air, besides=empty)
 
 
 def _problem(
@@ -193,7 +195,7 @@ def _problem(
     stored = of_elements(setup, "specific_storage") if scene.seepage.transient else None
     conductivity = of_elements(setup, "hydraulic_conductivity")
     held = [_held(setup, one, filling, conductivity) for one in scene.heads]
-    inflows = [Given("inflows", one, amount=one.velocity) for one in scene.inflows]
+    inflows = [GivenTable("inflows", one, amount=one.velocity) for one in scene.inflows]
     tables = FieldTables(
         conductivity=conductivity,
         capacity=stored,

@@ -10,14 +10,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.barrier.potential import Potential, Pull
+from nmm.contact.barrier.potential import BarrierForces, Potential
 
 TURNS = 40
 """Most steps of Newton's method for one number; five to eight are usual."""
 
 
 @dataclass(frozen=True)
-class Spot:
+class LawPoints:
     """Points on the laws of all contacts.
 
     Attributes
@@ -30,7 +30,7 @@ class Spot:
 
     gap: Floats
     slip: Floats
-    pull: Pull
+    pull: BarrierForces
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class Curves:
         gap: Floats,
         slip: Floats,
         bound: Floats | None = None,
-    ) -> Spot:
+    ) -> LawPoints:
         """Point of every law with the given trials; springs take ``gap`` and ``slip`` (m,).
 
         The ``bound`` of friction (m,) is that of the normal force found unless given.
@@ -73,7 +73,7 @@ class Curves:
         found = np.where(spring, slip, self._slip(trials[1], np.where(spring, 0.0, limit)))
         place = np.where(spring, gap, x * well.width - well.offset)
         pull = well.pulled(normal, stiff, found, limit, follows=bound is None)
-        return Spot(place, found, pull)
+        return LawPoints(place, found, pull)
 
     def _distance(self, trial: Floats) -> Floats:
         """(m,) distance ``x`` to the wall over the width, from ``c w x - f(x) = trial``."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.barrier.curve import Curves, Spot
+from nmm.contact.barrier.curve import Curves, LawPoints
 from nmm.contact.barrier.potential import Potential
 from nmm.contact.iteration.multiplier_rounds import compliances, stiff_springs
 from nmm.contact.iteration.tools import Tools
@@ -30,7 +30,7 @@ class _State:
 
     increment: Floats
     trials: Trials
-    spot: Spot
+    spot: LawPoints
     rest: Floats
     gap: Floats
     slip: Floats

@@ -15,7 +15,7 @@ DEEPEST = 0.49
 
 
 @dataclass(frozen=True)
-class Pull:
+class BarrierForces:
     """Forces of all contacts and what they change with.
 
     Attributes
@@ -136,18 +136,18 @@ class Potential:
         """Bound of the shear force that belongs to a normal force."""
         return shear_bound(normal, normal < 0, self.problem.limits)
 
-    def pull(self, gap: Floats, slip: Floats) -> Pull:
+    def pull(self, gap: Floats, slip: Floats) -> BarrierForces:
         """Forces for the bound of friction of their own normal force."""
         normal, stiff = self.normal(gap)
         return self.pulled(normal, stiff, slip, self.bound(normal), follows=True)
 
     def pulled(
         self, normal: Floats, stiff: Floats, slip: Floats, bound: Floats, follows: bool
-    ) -> Pull:
+    ) -> BarrierForces:
         """Forces for normal forces, their stiffness and a bound, which may follow them."""
         shear, stiff_t, sense = self.shear(slip, bound)
         mixed = -bound_slope(normal, self.problem.limits) * sense * stiff * follows
-        return Pull(normal, shear, stiff, stiff_t, mixed)
+        return BarrierForces(normal, shear, stiff, stiff_t, mixed)
 
     def imbalance(self, increment: Floats, weight: Floats) -> float:
         """Relative out-of-balance force of unknowns (n,), infinite at or behind a wall.

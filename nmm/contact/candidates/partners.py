@@ -17,7 +17,7 @@ from nmm.contact.mortar.segments import faced
 from nmm.contact.points.boundary_points import sides
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.joint_book import JointBook
-from nmm.contact.points.welded import Welded
+from nmm.contact.points.welded import WeldedVertices
 from nmm.errors import SceneError, SolveError
 
 
@@ -58,7 +58,7 @@ class Partners:
         whole_faces: bool = False,
     ) -> None:
         self.sides = sides(model.manifold)
-        self.welded = Welded.of(model.cut.boundary, self.sides) if within_bodies else None
+        self.welded = WeldedVertices.of(model.cut.boundary, self.sides) if within_bodies else None
         self._pairs = pairs
         self._within_bodies, self._face_points = within_bodies, face_points
         self._origin, self._whole_faces = origin, whole_faces

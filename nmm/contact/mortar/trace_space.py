@@ -18,7 +18,7 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.motion import material_points
 from nmm.contact.detection.tolerances import ALIKE_COSINE, ALIKE_FINE, KINK
 from nmm.contact.points.boundary_points import Sides
-from nmm.contact.points.welded import Welded
+from nmm.contact.points.welded import WeldedVertices
 
 # Places on an edge that may be nodes: fields that are smooth are most unlike between corners.
 ALONG_EDGES = (0.0, 1 / 3, 2 / 3)
@@ -56,7 +56,7 @@ class TraceSpace:
 
     @classmethod
     def of(
-        cls, sides: Sides, edges: CutBoundary, modulus: Floats, welded: Welded | None
+        cls, sides: Sides, edges: CutBoundary, modulus: Floats, welded: WeldedVertices | None
     ) -> TraceSpace:
         """Return the nodes on the boundary of a manifold; ``modulus`` (E,) is of its elements."""
         along = edges.end - edges.start

@@ -21,7 +21,7 @@ ALIKE = 1e-12
 
 
 @dataclass(frozen=True)
-class Welded:
+class WeldedVertices:
     """Vertices of faces that move as one.
 
     Attributes

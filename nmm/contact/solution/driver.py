@@ -28,9 +28,9 @@ from nmm.contact.problem.coulomb import shear_bound
 from nmm.contact.problem.step_problem import SLIDE, StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform, solve_through
 from nmm.contact.solution.posed_step import PosedStep, Posing
-from nmm.contact.solution.record import Broken, ContactSolution
+from nmm.contact.solution.record import BrokenBonds, ContactSolution
 from nmm.contact.solution.request import StepRequest
-from nmm.contact.solution.untouched import Untouched
+from nmm.contact.solution.untouched import StepsWithoutContacts
 from nmm.errors import SolveError
 from nmm.frozen import with_parts
 from nmm.solvers.linear import LinearSolver
@@ -67,7 +67,7 @@ class ContactSolver:
     ) -> None:
         self.memory = enforcement.memory()
         self.last: tuple[StepProblem, StepAnswer] | None = None
-        self.untouched = Untouched()
+        self.untouched = StepsWithoutContacts()
         self._laws, self._posing = posing.laws, posing
         self._enforcement, self._unknown_body = enforcement, unknown_body
 
@@ -108,7 +108,7 @@ class ContactSolver:
         """
         self.memory.moving = request.step is not None
         passes, loss, besides = 0, request.lost, more(contacts)
-        gone: Broken | None = None
+        gone: BrokenBonds | None = None
         while True:
             agreed = self._agreed(contacts, rows, request, besides)
             answer, iteration = agreed.answer, agreed.iteration
@@ -130,7 +130,7 @@ class ContactSolver:
             loss += _lost(agreed.posed.problem, loaded, brittle, contacts)
             contacts, stored = self._broken(iteration, contacts, loaded, (broken, brittle))
             loss += stored
-            gone = Broken(contacts, loss)
+            gone = BrokenBonds(contacts, loss)
             besides = more(contacts) if freed.any() else besides
 
     def _agreed(

@@ -53,7 +53,7 @@ class ContactSolution:
     sliding: Floats = field(default_factory=lambda: np.zeros(0))
     rows: ContactRows | None = None
     missed: Floats | None = None
-    broken: "Broken | None" = None
+    broken: "BrokenBonds | None" = None
 
     @MadeOnce
     def push(self) -> Floats:
@@ -68,7 +68,7 @@ class ContactSolution:
 
 
 @dataclass(frozen=True)
-class Broken:
+class BrokenBonds:
     """Contacts at the start of a step in which bonds broke, and the energy that these lost (J)."""
 
     contacts: ContactPoints

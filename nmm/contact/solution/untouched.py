@@ -12,7 +12,7 @@ from nmm.solvers.linear import Factor
 SETTLED = Verdict(True, "converged", "no contact points")
 
 
-class Untouched:
+class StepsWithoutContacts:
     """Solves steps without contact points.
 
     Attributes

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Acting:
+class StageLoads:
     """How loads act in a stage: by name, those that ``grows`` in it and those that ``leaves``.
 
     ``released`` is the share of what removed blocks exerted that is gone at its end; None leaves
@@ -71,7 +71,7 @@ class Setup:
     start: State
     origin: Floats = field(default_factory=lambda: np.zeros(2))
     table: Any = None
-    acting: Acting | None = None
+    acting: StageLoads | None = None
     kinematics: Kinematics = COROTATIONAL
 
     @property

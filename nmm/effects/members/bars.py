@@ -8,7 +8,7 @@ import numpy as np
 from integration.arrays import Floats, Ints
 from nmm.effects.base import Setup
 from nmm.effects.members.chains import Chains
-from nmm.effects.members.ends import Ends, elements_along, elements_at, nowhere
+from nmm.effects.members.ends import MemberEnds, elements_along, elements_at, nowhere
 from nmm.effects.members.fibres import Fibres
 from nmm.effects.members.linked import Linked
 from nmm.effects.members.links import Links
@@ -64,7 +64,7 @@ class BarMembers(Linked):
             np.concatenate([getattr(one, name) for one in laid])
             for name in ("position", "elements", "share")
         )
-        ends = [Ends.at(setup, position[at], elements[at]) for at in (first, first + 1)]
+        ends = [MemberEnds.at(setup, position[at], elements[at]) for at in (first, first + 1)]
         links = Links.of(ends[0], ends[1], setup.small)
         of_node = np.repeat(np.arange(len(bars)), nodes)
         slips = np.flatnonzero(share > 0)

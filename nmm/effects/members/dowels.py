@@ -18,7 +18,7 @@ from nmm.assembly.motion import State
 from nmm.effects.base import Setup
 from nmm.effects.members.chains import NONE, Chains
 from nmm.effects.members.crossings import JointsCrossed
-from nmm.effects.members.ends import Ends
+from nmm.effects.members.ends import MemberEnds
 from nmm.effects.members.fibres import Fibres
 from nmm.effects.members.linked import Linked
 from nmm.effects.members.links import Links
@@ -95,8 +95,8 @@ def _links(setup: Setup, crossed: JointsCrossed, ends: Floats, length: Floats) -
     middle = first + crossed.share[:, None] * along
     across = np.stack([-along[:, 1], along[:, 0]], axis=1) / np.hypot(*along.T)[:, None]
     half = length[:, None] / 2 * across
-    low = Ends.at(setup, middle - half, crossed.before)
-    high = Ends.at(setup, middle + half, crossed.after)
+    low = MemberEnds.at(setup, middle - half, crossed.before)
+    high = MemberEnds.at(setup, middle + half, crossed.after)
     return Links.of(low, high, setup.small)
 
 

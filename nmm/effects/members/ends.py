@@ -18,14 +18,14 @@ from nmm.errors import Fault, SceneError
 from nmm.scene.tables.members import GROUND
 
 if TYPE_CHECKING:
-    from nmm.scene.tables.members import Between
+    from nmm.scene.tables.members import TwoEndedTable
 
 # Of the reach: so far before an edge only one side of it is in reach, unless aslant by less.
 BEFORE = 10.0
 
 
 @dataclass(frozen=True)
-class Ends:
+class MemberEnds:
     """Points on bodies, or on the ground.
 
     Attributes
@@ -86,7 +86,9 @@ class Ends:
         return np.asarray(self.held[:, None] * (self.position + way - centre - first))
 
 
-def ends_of(setup: Setup, key: str, members: "Sequence[Between]") -> tuple[Ends, Ends]:
+def ends_of(
+    setup: Setup, key: str, members: "Sequence[TwoEndedTable]"
+) -> tuple[MemberEnds, MemberEnds]:
     """Return the first and the second ends of members of a table ``[[key]]``.
 
     Raises
@@ -102,7 +104,7 @@ def ends_of(setup: Setup, key: str, members: "Sequence[Between]") -> tuple[Ends,
         for member, block, element in zip(members, named, elements, strict=True):
             if element < 0 and block != GROUND:
                 faults.append(nowhere(setup, key, member.name, member.points[side], block))
-        found.append(Ends.at(setup, position, elements))
+        found.append(MemberEnds.at(setup, position, elements))
     if faults:
         raise SceneError(*faults)
     return found[0], found[1]

@@ -7,7 +7,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.assembly.places import Place, on_segment
 from nmm.effects.base import Setup
-from nmm.effects.members.ends import Ends, nowhere
+from nmm.effects.members.ends import MemberEnds, nowhere
 from nmm.effects.members.fibres import Fibres
 from nmm.effects.members.linked import Linked
 from nmm.effects.members.links import Links
@@ -43,8 +43,8 @@ class Foundations(Linked):
         elements = np.concatenate([place.elements for place, *_ in sides])
         direction = np.concatenate([axis for _, axis, _, _ in sides])
         links = Links(
-            Ends.at(setup, position, np.full(len(position), -1)),
-            Ends.at(setup, position, elements),
+            MemberEnds.at(setup, position, np.full(len(position), -1)),
+            MemberEnds.at(setup, position, elements),
             direction,
             small=True,
         )

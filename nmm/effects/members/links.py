@@ -15,7 +15,7 @@ from scipy.sparse import csc_array, csr_array, diags_array
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
-from nmm.effects.members.ends import Ends
+from nmm.effects.members.ends import MemberEnds
 
 
 @dataclass(frozen=True)
@@ -53,13 +53,13 @@ class Links:
         Whether they pull as drawn however their ends move, and a way across stretches none.
     """
 
-    first: Ends
-    second: Ends
+    first: MemberEnds
+    second: MemberEnds
     direction: Floats
     small: bool
 
     @classmethod
-    def of(cls, first: Ends, second: Ends, small: bool) -> Self:
+    def of(cls, first: MemberEnds, second: MemberEnds, small: bool) -> Self:
         """Return the links between ends (m)."""
         vector = second.position - first.position
         return cls(first, second, vector / np.hypot(*vector.T)[:, None], small)

@@ -10,7 +10,7 @@ from integration.arrays import Floats
 from nmm.assembly.motion import State
 from nmm.assembly.pushes import Pushes
 from nmm.effects.base import Effect, Instant, Setup
-from nmm.effects.members.ends import Ends, elements_at, nowhere
+from nmm.effects.members.ends import MemberEnds, elements_at, nowhere
 from nmm.errors import FormulationError, SceneError
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ class PointMasses(Effect):
     name = "masses"
     external = False
 
-    def __init__(self, ends: Ends, weight: Floats) -> None:
+    def __init__(self, ends: MemberEnds, weight: Floats) -> None:
         self._ends, self._weight = ends, weight
 
     @classmethod
@@ -50,7 +50,7 @@ class PointMasses(Effect):
         return float(np.sum(self._weight * (self._ends.way(after) - self._ends.way(before))))
 
 
-def _ends(setup: Setup) -> Ends:
+def _ends(setup: Setup) -> MemberEnds:
     masses = setup.scene.masses
     position = np.array([one.point for one in masses])
     elements = [
@@ -64,7 +64,7 @@ def _ends(setup: Setup) -> Ends:
     ]
     if lost:
         raise SceneError(*lost)
-    return Ends.at(setup, position, np.array(elements))
+    return MemberEnds.at(setup, position, np.array(elements))
 
 
 def _masses(setup: Setup) -> Floats:

@@ -35,7 +35,7 @@ LAG = 2.5
 
 
 @dataclass(frozen=True)
-class Calls:
+class ZoneCalls:
     """What the tips of zones have in a state.
 
     Attributes
@@ -134,7 +134,7 @@ class CohesiveZones(Effect):
     def _places(self) -> ZoneNuclei:
         return ZoneNuclei.of(self._setup.model, self._setup.geometry, self._strength, self._length)
 
-    def calls(self, state: State) -> Calls:
+    def calls(self, state: State) -> ZoneCalls:
         """Return what the tips have in a state."""
         front = np.flatnonzero(self._tips >= 0)
         tip = self._tips[front]
@@ -143,9 +143,9 @@ class CohesiveZones(Effect):
         share, ahead = pulled.size / strength, self._setup.model.cut.tips.direction[tip]
         # Where stress is low its direction says nothing: a zone goes straight on.
         strong = share >= self._table.ahead
-        return Calls(front, tip, share, np.where(strong[:, None], pulled.plane, ahead))
+        return ZoneCalls(front, tip, share, np.where(strong[:, None], pulled.plane, ahead))
 
-    def _short(self, found: Calls, contacts: "ContactPoints | None") -> Bools:
+    def _short(self, found: ZoneCalls, contacts: "ContactPoints | None") -> Bools:
         """Whether zones (k,) end too near to where they began, or to bonds that give way.
 
         Faces act only where they part all covers that they run through, and must be whole there

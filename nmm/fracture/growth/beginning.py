@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from nmm.fracture.nucleation.rule import NucleationRule
 
 
-class Beginnings:
+class CrackBeginnings:
     """Where cracks may begin in the geometry of a setup; nowhere without a rule in its scene."""
 
     def __init__(self, setup: Setup, toughness: Toughness) -> None:

@@ -15,7 +15,7 @@ from nmm.assembly.stress_points import PressureAt, StressAt
 from nmm.effects.base import Effect, Setup
 from nmm.effects.event import Event
 from nmm.fracture.growth.advance import advanced
-from nmm.fracture.growth.beginning import Beginnings
+from nmm.fracture.growth.beginning import CrackBeginnings
 from nmm.fracture.growth.faces import CrackFaces
 from nmm.fracture.growth.fronts import CrackFronts, nucleus_name
 from nmm.fracture.growth.grown import GrownSoFar
@@ -55,7 +55,7 @@ class GrowingCracks(Effect):
         self._sofar = GrownSoFar(np.zeros(len(self._fronts)), 0.0) if sofar is None else sofar
         self._tips = self._fronts.tips(setup.model.cut, cracks)
         self._measured = MeasuredTips(setup, self.rule, self._tips, table.radius, self.held)
-        self._beginnings = Beginnings(setup, self.rule.toughness)
+        self._beginnings = CrackBeginnings(setup, self.rule.toughness)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:

@@ -19,7 +19,7 @@ from nmm.fracture.growth.growing import GrowingCracks
 from nmm.fracture.growth.grown import GrownSoFar, nearest_elements
 from nmm.fracture.growth.held_faces import HeldFaces, newly_held
 from nmm.fracture.growth.rule import ROUNDING
-from nmm.fracture.growth.running import Running
+from nmm.fracture.growth.running import RunningTips
 from nmm.fracture.growth.speed import SPEEDS, rayleigh_speeds
 from nmm.fracture.growth.tips.intensities import Intensities, tip_moduli
 
@@ -37,7 +37,7 @@ class GrowthInTime(GrowingCracks):
         self._law = SPEEDS[self._table.speed or "freund"]
         angle, length = self._table.branching, self._table.branching_length
         self._branching = None if angle is None else Branching(angle, length or 0.0)
-        self._running = Running.at_rest(len(self._fronts), setup.start.time)
+        self._running = RunningTips.at_rest(len(self._fronts), setup.start.time)
         self._held = HeldFaces.none(setup.model)
 
     @property
@@ -84,7 +84,7 @@ class GrowthInTime(GrowingCracks):
         new._held = self._held.followed(change).joined(held)
         return new
 
-    def _joined(self, change: "Change", born: Floats) -> Running:
+    def _joined(self, change: "Change", born: Floats) -> RunningTips:
         """Return how tips run with those that were born at places (k, 2) before."""
         if len(change.setup.geometry.nuclei) > len(self._setup.geometry.nuclei):
             model = self._setup.model
@@ -120,7 +120,7 @@ class GrowthInTime(GrowingCracks):
         """See `Effect.carry`."""
         *sofar, running, held = carried
         super().carry(tuple(sofar))
-        self._running = Running(*running)
+        self._running = RunningTips(*running)
         self._held = HeldFaces.of_arrays(self._setup.model, held)
 
     def _growing(self, found: Intensities) -> Bools:

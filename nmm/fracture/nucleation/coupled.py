@@ -33,7 +33,7 @@ ALIKE = 1e-9
 
 
 @dataclass(frozen=True)
-class Coupled:
+class CoupledCriterion:
     """A line opens where it has reached both.
 
     Attributes

@@ -17,7 +17,7 @@ from nmm.assembly.model import Model
 from nmm.fracture.acting_stress import StressOn
 from nmm.fracture.clear_way import LIGAMENT, clear_length
 from nmm.fracture.nucleation.line_stress import LineStress
-from nmm.fracture.nucleation.places import Places, outline
+from nmm.fracture.nucleation.places import NucleationPlaces, outline
 from nmm.fracture.nucleation.reached import SHARES, OpeningLines
 from nmm.fracture.nucleation.rule import NucleationRule
 from nmm.fracture.principal import LargestPrincipal
@@ -66,12 +66,14 @@ class Nuclei:
 
     model: Model
     rule: NucleationRule
-    places: Places
+    places: NucleationPlaces
 
     @classmethod
     def of(cls, model: Model, geometry: Geometry, rule: NucleationRule) -> "Nuclei":
         """Return those of a model on a geometry."""
-        return cls(model, rule, Places.of(model.cut, geometry, rule.deep, rule.away, rule.tough))
+        return cls(
+            model, rule, NucleationPlaces.of(model.cut, geometry, rule.deep, rule.away, rule.tough)
+        )
 
     def nearest(self, stress: StressOn) -> Nucleus | None:
         """Return the place that has reached most of the strength under a stress; None without any.

@@ -14,7 +14,7 @@ CORNER = 0.35
 
 
 @dataclass(frozen=True)
-class Places:
+class NucleationPlaces:
     """Middles and ends of the pieces of edges, and middles of elements.
 
     Attributes
@@ -37,7 +37,7 @@ class Places:
     @classmethod
     def of(
         cls, cut: CutCells, geometry: Geometry, deep: float, away: float, beside: float
-    ) -> "Places":
+    ) -> "NucleationPlaces":
         """Return those of a cut: inside from ``deep`` (m) on, ``away`` (m) from cracks.
 
         Corners are near that are nearer than ``beside`` (m).
@@ -67,10 +67,10 @@ class Places:
     def __len__(self) -> int:
         return len(self.point)
 
-    def take(self, rows: Ints | Bools) -> "Places":
+    def take(self, rows: Ints | Bools) -> "NucleationPlaces":
         """Return some of them."""
         point, inward = self.point[rows], self.inward[rows]
-        return Places(point, inward, self.element[rows], self.notched[rows])
+        return NucleationPlaces(point, inward, self.element[rows], self.notched[rows])
 
     @property
     def inside(self) -> Bools:

@@ -57,9 +57,11 @@ class NucleationRule:
         most = np.inf if table.number is None else table.number
         effective = table.stress == "effective"
         if table.criterion == "coupled":
-            from nmm.fracture.nucleation.coupled import Coupled
+            from nmm.fracture.nucleation.coupled import CoupledCriterion
 
-            return cls(strength, Coupled(strength, tough), tough, None, tough, most, effective)
+            return cls(
+                strength, CoupledCriterion(strength, tough), tough, None, tough, most, effective
+            )
         length = tough if table.length is None else table.length
         crack_length = length if table.crack_length is None else table.crack_length
         mean = MeanOnLine(strength, length)

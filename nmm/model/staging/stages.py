@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import ValidationError
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.effects.base import Acting
+from nmm.effects.base import StageLoads
 from nmm.errors import Fault, FormulationError, SceneError
 from nmm.model.origin import shifted
 from nmm.model.staging.acting import blocks_named, keys_of_stage, named_in
@@ -50,7 +50,7 @@ class Stage:
     formulation: "Formulation"
     present: Bools
     duration: float | None
-    acting: Acting
+    acting: StageLoads
     reset: bool
     material: Ints
 
@@ -119,7 +119,7 @@ def _resolved(
             _of_present(formulation, there),
             present,
             table.duration,
-            Acting(names - before, faded, table.release),
+            StageLoads(names - before, faded, table.release),
             table.reset_displacements,
             material,
         )

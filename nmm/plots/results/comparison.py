@@ -20,7 +20,7 @@ SHARE = 99.5  # percent of the stresses that the scale holds: singular corners w
 
 
 @dataclass(frozen=True)
-class Shown:
+class DrawnRun:
     """What is drawn of one run.
 
     Attributes
@@ -50,7 +50,7 @@ class Shown:
 
 
 def comparison(
-    runs: Sequence[Shown],
+    runs: Sequence[DrawnRun],
     differences: Sequence[tuple[Floats, Floats]],
     extent: Floats,
     *,
@@ -176,7 +176,7 @@ def _label_places(row: "Sequence[Axes]") -> None:
 
 
 def _cracks(
-    row: "Sequence[Axes]", runs: Sequence[Shown], shades: Sequence[str], extent: Floats
+    row: "Sequence[Axes]", runs: Sequence[DrawnRun], shades: Sequence[str], extent: Floats
 ) -> None:
     """Draw what broke over the outline of what is drawn above."""
     from matplotlib.collections import LineCollection
@@ -191,7 +191,7 @@ def _cracks(
 
 
 def _contacts(
-    row: "Sequence[Axes]", runs: Sequence[Shown], shades: Sequence[str], extent: Floats
+    row: "Sequence[Axes]", runs: Sequence[DrawnRun], shades: Sequence[str], extent: Floats
 ) -> None:
     """Draw contact forces as lines along the force, their width its size, on one scale."""
     from matplotlib.collections import LineCollection
@@ -229,7 +229,7 @@ def _frame_pictures(row: "Sequence[Axes]", shown: int, extent: Floats) -> None:
 
 
 def _curves(
-    axes: "Axes", runs: Sequence[Shown], shades: Sequence[str], curve: tuple[str, str]
+    axes: "Axes", runs: Sequence[DrawnRun], shades: Sequence[str], curve: tuple[str, str]
 ) -> None:
     x_unit, y_unit = (unit_of(name) for name in curve)
     x_factor, x_unit = prefixed(np.concatenate([one.x for one in runs]), x_unit)

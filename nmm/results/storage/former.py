@@ -10,7 +10,7 @@ from pathlib import Path
 from nmm.errors import DamageError, StorageError
 from nmm.plain_file import plain
 from nmm.results.storage import files
-from nmm.results.storage.mark import Mark
+from nmm.results.storage.mark import RunMark
 from nmm.results.storage.writing import told
 from nmm.results.summary import Summary
 
@@ -97,7 +97,7 @@ def _others(folder: Path) -> bool:
 
 def _is_run(folder: Path) -> bool:
     """Whether the mark or the summary is one that a run wrote."""
-    for name, read in ((files.MARK, Mark.from_json), (files.SUMMARY, Summary.from_json)):
+    for name, read in ((files.MARK, RunMark.from_json), (files.SUMMARY, Summary.from_json)):
         try:
             read(plain(folder / name).read_text(encoding="utf-8"))
         except (OSError, ValueError):

@@ -15,7 +15,7 @@ KIND = "nmm run"
 
 
 @dataclass(frozen=True)
-class Mark:
+class RunMark:
     """What `run.json` holds.
 
     Attributes
@@ -33,7 +33,7 @@ class Mark:
     sha256: Mapping[str, str] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, texts: Mapping[str, str]) -> "Mark":
+    def of(cls, texts: Mapping[str, str]) -> "RunMark":
         """Return the mark of a folder with these texts, by the names of their files."""
         return cls(sha256={name: _sum(text) for name, text in texts.items()})
 
@@ -46,7 +46,7 @@ class Mark:
         return json.dumps(asdict(self), indent=2) + "\n"
 
     @classmethod
-    def from_json(cls, text: str) -> "Mark":
+    def from_json(cls, text: str) -> "RunMark":
         """Read a mark back.
 
         Raises

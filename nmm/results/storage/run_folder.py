@@ -26,7 +26,7 @@ from nmm.results.storage.checkpoint import (
 )
 from nmm.results.storage.history import HistoryFile
 from nmm.results.storage.lock import FolderLock
-from nmm.results.storage.mark import Mark
+from nmm.results.storage.mark import RunMark
 from nmm.results.storage.values import Arrays
 from nmm.results.storage.writing import ToDisk, told, write_text
 from nmm.results.summary import REPLACING, STOPPED, Summary
@@ -191,7 +191,7 @@ class RunFolder:
             (self.path / files.FRAMES).mkdir(exist_ok=True)
         self._write(files.SCENE, scene)
         self._write(files.FORMULATION, formulation)
-        mark = Mark.of({files.SCENE: scene, files.FORMULATION: formulation})
+        mark = RunMark.of({files.SCENE: scene, files.FORMULATION: formulation})
         self._write(files.MARK, mark.to_json())
 
     def _write(self, name: str, content: str) -> None:

@@ -17,7 +17,7 @@ from nmm.results.frame import Frame, Topology
 from nmm.results.storage import files
 from nmm.results.storage.history import read_history
 from nmm.results.storage.lock import owner
-from nmm.results.storage.mark import FORMAT, Mark
+from nmm.results.storage.mark import FORMAT, RunMark
 from nmm.results.summary import REPLACING, RUNNING, STOPPED, UNKNOWN, Summary
 
 
@@ -102,7 +102,7 @@ class StoredRun:
     frames: StoredFrames
     history: dict[str, Floats]
     summary: Summary
-    mark: Mark | None = None
+    mark: RunMark | None = None
     faults: tuple[str, ...] = ()
 
 
@@ -157,13 +157,13 @@ class _Reader:
                 "the folder that `nmm run` named at its end"
             )
 
-    def mark(self) -> Mark | None:
+    def mark(self) -> RunMark | None:
         """Return the mark; folders of before it was introduced have none."""
         path = self.folder / files.MARK
         if not path.exists():
             return None
         try:
-            mark = Mark.from_json(self.text(files.MARK))
+            mark = RunMark.from_json(self.text(files.MARK))
         except NmmError:
             self._fault(path, "damaged", "what is read may be of another version")
             return None
@@ -185,7 +185,7 @@ class _Reader:
             self._fault(path, "damaged, no UTF-8 text", "the other files can be read")
         return ""
 
-    def own_text(self, name: str, mark: Mark | None, frames: Sequence[Path]) -> str:
+    def own_text(self, name: str, mark: RunMark | None, frames: Sequence[Path]) -> str:
         """Return scene or formulation as run; a run killed at its start has none yet."""
         if not frames and not (self.folder / name).exists():
             return ""

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from nmm.scene.actions import Placed
+from nmm.scene.actions import PlacedTable
 from nmm.scene.fields import Flag, Frozen, Point, Time, fault, quantity
 
 Temperature = Annotated[float, quantity("K")]
@@ -50,7 +50,7 @@ class HeatTable(Frozen):
         return self
 
 
-class PlacedFlux(Placed):
+class PlacedFlux(PlacedTable):
     """Something that acts on a part of the boundary or in the volume of blocks."""
 
     @model_validator(mode="after")
@@ -60,7 +60,7 @@ class PlacedFlux(Placed):
         return self
 
 
-def on_segment(item: Placed) -> None:
+def on_segment(item: PlacedTable) -> None:
     """Refuse a table without a segment."""
     if item.segment is None:
         raise fault("no segment", "a segment of the boundary", "give segment")

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from nmm.scene.actions import Placed
+from nmm.scene.actions import PlacedTable
 from nmm.scene.fields import SMALLEST, Coordinate, Flag, ForceDensity, Frozen, Time, fault, quantity
 from nmm.scene.tables.water import WATER
 
@@ -52,7 +52,7 @@ class JointFlowTable(Frozen):
         return self
 
 
-class JointHeadTable(Placed):
+class JointHeadTable(PlacedTable):
     """A head that is held at the ends of joints at a point, or along a segment.
 
     `history` multiplies it.

@@ -41,7 +41,7 @@ _BLOCKS = (
 )
 
 
-class Between(Frozen):
+class TwoEndedTable(Frozen):
     """Something between two points."""
 
     name: Name = Field(description=NAME, examples=["anchor"])
@@ -53,7 +53,7 @@ class Between(Frozen):
     )
 
     @model_validator(mode="after")
-    def _apart(self) -> Between:
+    def _apart(self) -> TwoEndedTable:
         first, second = self.points
         if first == second:
             raise fault(f"{list(first)} twice", "two points apart", "move one of them")
@@ -62,7 +62,7 @@ class Between(Frozen):
         return self
 
 
-class SpringTable(Between):
+class SpringTable(TwoEndedTable):
     """A spring that pulls its two ends together as it is stretched, and turns with them."""
 
     stiffness: Stiffness = Field(
@@ -82,7 +82,7 @@ class SpringTable(Between):
     )
 
 
-class DashpotTable(Between):
+class DashpotTable(TwoEndedTable):
     """A damper: its force is a constant times the rate at which it grows longer."""
 
     viscosity: Viscosity = Field(
@@ -185,7 +185,7 @@ def _ends(value: object) -> object:
 End = Literal["free", "fixed", "ground"]
 
 
-class BarTable(Between):
+class BarTable(TwoEndedTable):
     """A straight bar: a rock bolt, a cable, an anchor, reinforcement of concrete.
 
     With a bond it is held all along what it lies in, and crosses joints; without one it is held at

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from pydantic import Field, field_validator, model_validator
 
-from nmm.scene.actions import Placed
+from nmm.scene.actions import PlacedTable
 from nmm.scene.fields import (
     Coordinate,
     ForceDensity,
@@ -20,7 +20,7 @@ WATER = 9810.0
 """Weight of fresh water (N/m3)."""
 
 
-class WaterPressureTable(Placed):
+class WaterPressureTable(PlacedTable):
     """Water that presses on edges, at right angles to them as the blocks turn.
 
     It acts on all edges of blocks along a segment, on both faces of a joint there, on one alone

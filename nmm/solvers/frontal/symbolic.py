@@ -14,14 +14,14 @@ PLANS_KEPT = 4
 
 
 @dataclass
-class Kept:
+class KeptPlan:
     """A plan, and whether matrices of its pattern are known to be symmetric."""
 
     plan: Fronts
     symmetric: bool
 
 
-PLANS: list[Kept] = []
+PLANS: list[KeptPlan] = []
 
 
 def symmetric_plan(matrix: csc_array) -> Fronts | None:
@@ -46,12 +46,12 @@ def any_plan(matrix: csc_array) -> Fronts:
     return kept.plan
 
 
-def _known(matrix: csc_array) -> Kept | None:
+def _known(matrix: csc_array) -> KeptPlan | None:
     return next((kept for kept in PLANS if kept.plan.fits(matrix)), None)
 
 
-def _planned(matrix: csc_array, mirrored: bool) -> Kept:
-    kept = Kept(Fronts.of(matrix, mirrored), False)
+def _planned(matrix: csc_array, mirrored: bool) -> KeptPlan:
+    kept = KeptPlan(Fronts.of(matrix, mirrored), False)
     PLANS.insert(0, kept)
     del PLANS[PLANS_KEPT:]
     return kept

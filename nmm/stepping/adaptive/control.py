@@ -34,7 +34,7 @@ HALVINGS = 6
 
 
 @dataclass(frozen=True)
-class Chosen:
+class StepChoice:
     """What the control of steps remembers between two of them.
 
     Attributes
@@ -52,7 +52,7 @@ class Chosen:
     speed: float = 0.0
     pushing: Ints = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
 
-    def seen(self, way: float, speed: float) -> "Chosen":
+    def seen(self, way: float, speed: float) -> "StepChoice":
         """Return it after a displacement (m) and a speed (m/s)."""
         return with_parts(self, way=max(self.way, way), speed=max(self.speed, speed))
 
@@ -99,16 +99,16 @@ class StepControl:
         return cls(error, order, shortest, longest, first)
 
     @property
-    def beginning(self) -> Chosen:
+    def beginning(self) -> StepChoice:
         """What is carried on before the first step."""
-        return Chosen()
+        return StepChoice()
 
     @property
     def bound(self) -> float:
         """What a step may err by, as a share of what moves."""
         return float(self.error ** (1 + 1 / self.order))
 
-    def ratio(self, seen: Chosen, apart: float, faster: float, length: float) -> float:
+    def ratio(self, seen: StepChoice, apart: float, faster: float, length: float) -> float:
         """Return the error of a step of a ``length`` (s) over what it may be.
 
         ``apart`` (m) and ``faster`` (m/s) are by how much places and speeds are off. With order 1

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Followed:
+class FollowedPoints:
     """Points of a model, all vertices or two on each body as if it were rigid.
 
     Attributes

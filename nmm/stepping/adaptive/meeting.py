@@ -24,7 +24,7 @@ SHORT = 1 - 1e-3
 
 
 @dataclass(frozen=True)
-class Meeting:
+class ClosingContacts:
     """Contacts (k,) that were open where a step began and push where it ends.
 
     Attributes

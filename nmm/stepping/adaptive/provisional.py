@@ -8,11 +8,11 @@ from nmm.results.tee import Held
 if TYPE_CHECKING:
     from nmm.stepping.reports.recorder import Recorder
     from nmm.stepping.reports.totals import Totals
-    from nmm.stepping.step.carried import CarriedOver
+    from nmm.stepping.step.carried import CarriedState
 
 
 @dataclass(frozen=True)
-class Provisional:
+class ProvisionalStep:
     """What a recorder and its stepper knew before the step, and what they write of it since.
 
     Attributes
@@ -28,7 +28,7 @@ class Provisional:
     recorder: "Recorder"
     held: Held
     totals: "Totals"
-    carried: "CarriedOver"
+    carried: "CarriedState"
     taken: int
 
     @classmethod

@@ -12,10 +12,10 @@ from math import floor, inf, isinf, log2
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.frozen import with_parts
-from nmm.stepping.adaptive.control import Chosen, StepControl
-from nmm.stepping.adaptive.followed import Followed
-from nmm.stepping.adaptive.meeting import Meeting
-from nmm.stepping.adaptive.provisional import Provisional
+from nmm.stepping.adaptive.control import StepChoice, StepControl
+from nmm.stepping.adaptive.followed import FollowedPoints
+from nmm.stepping.adaptive.meeting import ClosingContacts
+from nmm.stepping.adaptive.provisional import ProvisionalStep
 from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.trial import Attempt
 
@@ -26,7 +26,7 @@ SUDDEN = 0.1
 
 
 @dataclass(frozen=True)
-class Halves:
+class HalvedStep:
     """A step whose first half is accepted and whose second is to be.
 
     Attributes
@@ -44,7 +44,7 @@ class Halves:
     middle: State
     second: Attempt
     next: float
-    chosen: Chosen
+    chosen: StepChoice
     cut: str = ""
 
 
@@ -58,7 +58,7 @@ class _Trial:
     middle: State
     second: Attempt
     ratio: float = inf
-    seen: Chosen | None = None
+    seen: StepChoice | None = None
     first: Attempt | None = None
 
 
@@ -84,7 +84,7 @@ class TrialStep:
     load_factor: float
     stage: str
 
-    def take(self, chosen: Chosen, asked: float, stop: float) -> Halves:
+    def take(self, chosen: StepChoice, asked: float, stop: float) -> HalvedStep:
         """Take a step of ``asked`` (s) or less that does not pass the time ``stop`` (s).
 
         Raises
@@ -112,16 +112,16 @@ class TrialStep:
                 after = min(after, length) if tried else max(after, asked)
                 if met and not tried:  # an impact begins, which takes a time of its own
                     after = min(after, self.control.first)
-                return Halves(trial.middle, trial.second, after, trial.seen, cut)
+                return HalvedStep(trial.middle, trial.second, after, trial.seen, cut)
             if last:
-                return Halves(trial.middle, trial.second, length, chosen, cut)
+                return HalvedStep(trial.middle, trial.second, length, chosen, cut)
             self.recorder.tried(rejected=1)
             count = 1 if isinf(trial.ratio) else self.control.halvings(trial.ratio)
             count = max(1, min(count, floor(log2(length / shortest))))
             end, tried = start + length / 2**count, True
             whole = trial.first if count == 1 else None
 
-    def _trial(self, chosen: Chosen, end: float, whole: Attempt | None, last: bool) -> _Trial:
+    def _trial(self, chosen: StepChoice, end: float, whole: Attempt | None, last: bool) -> _Trial:
         """Try both halves, and keep the first where they err little enough, or are the ``last``."""
         state, stepper = self.state, self.recorder.stepper
         whole = whole or self._attempt(state, end)
@@ -130,7 +130,7 @@ class TrialStep:
         first = self._attempt(state, state.time + (end - state.time) / 2)
         if not first.converged:
             return _Trial(state, first)
-        known = Provisional.begin(self.recorder)
+        known = ProvisionalStep.begin(self.recorder)
         try:
             middle, contacts = stepper.accept(first)
             self.recorder.step(state, first, contacts, middle)
@@ -151,28 +151,28 @@ class TrialStep:
             self.recorder.tried(unresolved=1)
         return _Trial(middle, second, ratio, seen)
 
-    def _meeting(self, chosen: Chosen, whole: Attempt) -> Attempt | None:
+    def _meeting(self, chosen: StepChoice, whole: Attempt) -> Attempt | None:
         """Return the step that ends as bodies meet in a ``whole`` one; None where none do."""
         points, shortest = (
-            Followed(self.recorder.stepper, self.control.rigid),
+            FollowedPoints(self.recorder.stepper, self.control.rigid),
             self.control.shortest,
         )
         speed = max(chosen.speed, points.sizes(self.state)[1])
-        found = Meeting.of(whole, self.state, chosen.pushing, SUDDEN * speed, 2 * shortest)
+        found = ClosingContacts.of(whole, self.state, chosen.pushing, SUDDEN * speed, 2 * shortest)
         if found is None:
             return None
         return found.first(self.state, self._attempt, whole.state.time, shortest)
 
     def _error(
-        self, chosen: Chosen, whole: Attempt, first: Attempt, second: Attempt
-    ) -> tuple[Chosen, float]:
+        self, chosen: StepChoice, whole: Attempt, first: Attempt, second: Attempt
+    ) -> tuple[StepChoice, float]:
         """Return what the control carries on from both halves, and their error over the bound.
 
         Vibrations that steps do not resolve are nearly nothing in places, and much in speeds: these
         count while contacts push, where waves within bodies decide how they part.
         """
         stepper, rigid = self.recorder.stepper, self.control.rigid
-        points, all_points = Followed(stepper, rigid), Followed(stepper, rigid=False)
+        points, all_points = FollowedPoints(stepper, rigid), FollowedPoints(stepper, rigid=False)
         seen = chosen.seen(*points.sizes(first.state)).seen(*points.sizes(second.state))
         pushing = [one.solved.pushing for one in (first, second, whole) if one.solved is not None]
         counts = self.control.impacts and any(map(len, (chosen.pushing, *pushing)))

@@ -6,10 +6,10 @@ from scipy.sparse import csc_array
 from integration.arrays import Floats
 from nmm.effects.base import Instant
 from nmm.solvers.unchecked import magnitudes
-from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
+from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings, percent
 
 
-def balance(run: Ended) -> Findings:
+def balance(run: EndedRun) -> Findings:
     """Audit the sum of loads and reactions where a path ends; contact comes in pairs.
 
     It is set beside the sizes of the forces at all unknowns, not beside a sum: loads that pull a

@@ -8,7 +8,7 @@ from integration.arrays import Floats
 from integration.polygons import areas
 from nmm.assembly.momenta import momenta_about, own_momenta, rigid_masses
 from nmm.assembly.motion import State
-from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
+from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings, percent
 from nmm.stepping.step.stepper import Stepper
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ JOINTS_GIVE = (
 )
 
 
-def bodies(run: Ended) -> Findings:
+def bodies(run: EndedRun) -> Findings:
     """Audit overlap, area and momentum."""
     model, deep = run.stepper.model, run.recorder.totals.overlap
     contact = run.stepper.plan.contact
@@ -64,7 +64,7 @@ def _held_apart(contact: "ModelContact") -> str:
     return f"{JOINTS_GIVE}; elsewhere {other}" if own.any() else other
 
 
-def _momentum(run: Ended) -> Findings:
+def _momentum(run: EndedRun) -> Findings:
     (first, spun), (last, spins) = (_of_bodies(run.stepper, one) for one in (run.start, run.state))
     gravity = run.scene.gravity
     along = run.stepper.model.manifold.rigid_modes[:, ::3].sum(axis=1)

@@ -1,7 +1,7 @@
 """Which part of a run gave the energy that came from nowhere, and what to do about it."""
 
-from nmm.stepping.audits.base import Ended
-from nmm.stepping.reports.accounts import Rise
+from nmm.stepping.audits.base import EndedRun
+from nmm.stepping.reports.accounts import EnergyRise
 from nmm.stepping.reports.energies import HOLDING
 
 # A part of a rise that explains it.
@@ -14,7 +14,7 @@ SOFTENS = (
 TOUCHES = "it came from contact: take smaller steps or another enforcement and compare"
 
 
-def cause(run: Ended, rise: Rise) -> str:
+def cause(run: EndedRun, rise: EnergyRise) -> str:
     """Return what to do about a rise, with the part of the run that gave most of it if one did."""
     grown, most, contact = rise.grown, EXPLAINS * rise.energy, run.stepper.plan.contact
     if contact is not None and grown.contact >= max(most, grown.given):
@@ -36,7 +36,7 @@ def cause(run: Ended, rise: Rise) -> str:
     )
 
 
-def _held(run: Ended) -> str:
+def _held(run: EndedRun) -> str:
     """Name what holds bodies that turn: along the line of a step they leave their arcs."""
     named = [name for name in HOLDING if name in run.stepper.plan.effects]
     return (
@@ -46,7 +46,7 @@ def _held(run: Ended) -> str:
     )
 
 
-def _what_keeps(run: Ended) -> str:
+def _what_keeps(run: EndedRun) -> str:
     """Name what keeps energy where meshes turn as they touch: their forces act as a step begins."""
     stepper = run.stepper
     meshes = stepper.kinematics.turns and stepper.model.manifold.shared_covers

@@ -3,7 +3,7 @@
 import numpy as np
 
 from nmm.fracture.growth.faces import CrackFaces
-from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
+from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings, percent
 
 # Of the displacements, and of coordinates: faces that no function parts differ by less.
 ROUNDED_DISPLACEMENT, ROUNDED_PLACE = 1e-9, 64 * float(np.finfo(float).eps)
@@ -11,7 +11,7 @@ NAME = "faces_overlap"
 REMEDY = "add [contact], and an interface of the material with itself"
 
 
-def closed_cracks(run: Ended) -> Findings:
+def closed_cracks(run: EndedRun) -> Findings:
     """Audit faces at the end of a run, and tips as they grew."""
     plan = run.stepper.plan
     if plan.contact is not None or not run.scene.cracks:

@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from nmm.integrators.base import make_integrator
-from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
+from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings, percent
 from nmm.stepping.audits.causes import cause
 from nmm.stepping.audits.steps import impact_lasts
 from nmm.stepping.audits.table import THRESHOLDS
-from nmm.stepping.reports.accounts import Rise
+from nmm.stepping.reports.accounts import EnergyRise
 
 if TYPE_CHECKING:
     from nmm.stepping.reports.ledger import Ledger
@@ -22,7 +22,7 @@ SAME = 1.5
 RESOLVED = 60
 
 
-def energy(run: Ended) -> Findings:
+def energy(run: EndedRun) -> Findings:
     """Audit the energies of a run."""
     ledger = run.recorder.ledger
     wrong = [name for name, value in ledger.row.items() if not np.isfinite(value)]
@@ -64,7 +64,7 @@ def balance(stepper: "Stepper", ledger: "Ledger") -> float:
     return ledger.balance
 
 
-def _released(run: Ended) -> Findings:
+def _released(run: EndedRun) -> Findings:
     """Energy of statics that neither work nor losses account for where bonds broke."""
     stepper, ledger = run.stepper, run.recorder.ledger
     contact = stepper.plan.contact
@@ -81,7 +81,7 @@ def _released(run: Ended) -> Findings:
     )
 
 
-def _rounding(run: Ended) -> float:
+def _rounding(run: EndedRun) -> float:
     """Energy (J) of nothing but rounding: ``n eps |q| |K| |q|``, with n entries in a row of K.
 
     It bounds that of products with K (Higham, Accuracy and Stability, 3.5): a body that is moved
@@ -93,7 +93,7 @@ def _rounding(run: Ended) -> float:
     return float(entries * np.finfo(float).eps * (way @ (abs(matrix) @ way)))
 
 
-def _made(run: Ended) -> Findings:
+def _made(run: EndedRun) -> Findings:
     ledger = run.recorder.ledger
     rises = (("energy_made_in_step", ledger.in_step), ("energy_made_in_run", ledger.in_run))
     for name, rise in rises:
@@ -112,7 +112,7 @@ def _made(run: Ended) -> Findings:
         )
 
 
-def _driven(run: Ended) -> AuditFinding:
+def _driven(run: EndedRun) -> AuditFinding:
     """Energy that dampers and friction gave in all, and matter in some steps.
 
     What depends on a velocity's sign lags behind.
@@ -131,13 +131,13 @@ def _driven(run: Ended) -> AuditFinding:
     )
 
 
-def _told(run: Ended) -> bool:
+def _told(run: EndedRun) -> bool:
     """Whether the rise in one step is worth a warning."""
     ledger = run.recorder.ledger
     return ledger.in_step.energy > THRESHOLDS["energy_made_in_step"].warns * ledger.throughput
 
 
-def _came(name: str, rise: Rise, share: float) -> str:
+def _came(name: str, rise: EnergyRise, share: float) -> str:
     span = "in step" if name == "energy_made_in_step" else "up to step"
     return (
         f"{rise.energy:.3g} J, {percent(share)} of the turnover, came from nowhere {span} "
@@ -145,7 +145,7 @@ def _came(name: str, rise: Rise, share: float) -> str:
     )
 
 
-def _lost(run: Ended) -> Findings:
+def _lost(run: EndedRun) -> Findings:
     """Energy that damping took which nobody asked for, with the step that would keep it."""
     ledger, rule = run.recorder.ledger, run.formulation.integrator
     if rule.kinetic_factor < 1:

@@ -3,13 +3,13 @@
 import numpy as np
 
 from nmm.assembly.motion import vertex_points
-from nmm.stepping.audits.base import AuditFinding, Ended, Findings
+from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings
 
 # Residual from which on dependent functions are worth a word.
 NOTICED = 1e-8
 
 
-def equations(run: Ended) -> Findings:
+def equations(run: EndedRun) -> Findings:
     """Audit residual, condition, cuts and dependent functions."""
     residual, manifold = run.recorder.totals.residual, run.stepper.model.manifold
     yield AuditFinding(
@@ -48,7 +48,7 @@ def equations(run: Ended) -> Findings:
         )
 
 
-def _rounding(run: Ended) -> Findings:
+def _rounding(run: EndedRun) -> Findings:
     """Audit what rounding of the last solution may move, and where most."""
     changes = run.stepper.rounding_changes()
     if not changes:

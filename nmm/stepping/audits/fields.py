@@ -1,10 +1,10 @@
 """Fields that are conserved: what is taken up is stored."""
 
 from nmm.effects.base import defines
-from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
+from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings, percent
 
 
-def fields(run: Ended) -> Findings:
+def fields(run: EndedRun) -> Findings:
     """Audit the balance of heat and of water."""
     lacking = {
         name: effect.imbalance(run.state)

@@ -2,10 +2,10 @@
 
 import math
 
-from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
+from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings, percent
 
 
-def growth(run: Ended) -> Findings:
+def growth(run: EndedRun) -> Findings:
     """Audit paths of cracks, and the energy of those whose load keeps them at their toughness."""
     cracks, ledger = run.stepper.plan.fracture, run.recorder.ledger
     if cracks is None:

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from nmm.stepping.audits.balance import balance
-from nmm.stepping.audits.base import AuditFinding, Ended, Findings
+from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings
 from nmm.stepping.audits.bodies import bodies
 from nmm.stepping.audits.closed_cracks import closed_cracks
 from nmm.stepping.audits.energy import energy
@@ -14,7 +14,7 @@ from nmm.stepping.audits.growth import growth
 from nmm.stepping.audits.steps import steps
 from nmm.stepping.drive.verdict import CONVERGED, FAILURE, UNBALANCED, RunVerdict
 
-AUDITS: tuple[Callable[[Ended], Findings], ...] = (
+AUDITS: tuple[Callable[[EndedRun], Findings], ...] = (
     energy,
     equations,
     balance,
@@ -26,7 +26,7 @@ AUDITS: tuple[Callable[[Ended], Findings], ...] = (
 )
 
 
-def audit(run: Ended) -> list[AuditFinding]:
+def audit(run: EndedRun) -> list[AuditFinding]:
     """Return every number that an audit has measured; nothing of a run without a step."""
     if not run.recorder.steps:
         return []

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
+from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings, percent
 from nmm.stepping.drive.verdict import FAILURE
 
 # Share of the turnover lost by contact from which on its duration counts.
@@ -11,14 +11,14 @@ LOST_BY_CONTACT = 0.01
 FEW = 10
 
 
-def steps(run: Ended) -> Findings:
+def steps(run: EndedRun) -> Findings:
     """Audit time steps and load increments."""
     yield from _impacts(run) if run.dynamic else _increments(run)
     yield from _records(run) if run.dynamic else ()
     yield from _unresolved(run)
 
 
-def _unresolved(run: Ended) -> Findings:
+def _unresolved(run: EndedRun) -> Findings:
     """Tell steps that erred by more than was asked for and were to be no shorter."""
     lengths = run.recorder.totals.lengths
     if lengths is not None and lengths.unresolved:
@@ -31,7 +31,7 @@ def _unresolved(run: Ended) -> Findings:
         )
 
 
-def _records(run: Ended) -> Findings:
+def _records(run: EndedRun) -> Findings:
     """Tell records whose samples the steps pass over."""
     step = run.longest_step
     for name, effect in run.stepper.plan.effects.items():
@@ -44,7 +44,7 @@ def _records(run: Ended) -> Findings:
             )
 
 
-def impact_lasts(run: Ended) -> float | None:
+def impact_lasts(run: EndedRun) -> float | None:
     """Return how long (s) an impact of the lightest body lasts, about; None without springs.
 
     Half a period of its mass on two of the stiffest springs that pressed in the run.
@@ -57,7 +57,7 @@ def impact_lasts(run: Ended) -> float | None:
     return float(np.pi * np.sqrt(float(heavy.min()) * model.thickness / (2 * stiffest)))
 
 
-def _impacts(run: Ended) -> Findings:
+def _impacts(run: EndedRun) -> Findings:
     ledger, step = run.recorder.ledger, run.formulation.integrator.fixed_step
     lasts = impact_lasts(run)
     if run.formulation.integrator.kinetic_factor < 1 or lasts is None or step is None:
@@ -73,7 +73,7 @@ def _impacts(run: Ended) -> Findings:
     )
 
 
-def _increments(run: Ended) -> Findings:
+def _increments(run: EndedRun) -> Findings:
     verdict, asked = run.verdict, run.formulation.loading.tolerance
     if verdict.code == FAILURE and verdict.tolerance is not None:
         yield AuditFinding(

@@ -33,7 +33,7 @@ CERTAIN = 1e-6
 
 
 @dataclass(frozen=True)
-class Carried:
+class CarriedLoad:
     """The largest load factor, up to that asked for, that admissible contact forces carry.
 
     None where not even the loads that are not scaled are carried.
@@ -75,7 +75,9 @@ class LoadBound:
     motion: Floats
 
 
-def carried(stepper: "Stepper", state: State, asked: float, weaker: float = 1.0) -> Carried | None:
+def carried(
+    stepper: "Stepper", state: State, asked: float, weaker: float = 1.0
+) -> CarriedLoad | None:
     """Return what can be carried near ``state``; None without contact or where it is not known.
 
     Strengths of contacts are those of the stepper over ``weaker``.
@@ -83,7 +85,7 @@ def carried(stepper: "Stepper", state: State, asked: float, weaker: float = 1.0)
     found = _largest_share(stepper, state, asked, 1.0, weaker)
     if found is None:
         return None
-    return Carried(None if found.factor is None else asked * found.factor, asked)
+    return CarriedLoad(None if found.factor is None else asked * found.factor, asked)
 
 
 def load_bound(stepper: "Stepper", state: State) -> LoadBound | None:

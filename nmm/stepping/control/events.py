@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nmm.stepping.control.locating import ABOVE, Tried, located, outward
+from nmm.stepping.control.locating import ABOVE, TriedStep, located, outward
 from nmm.stepping.control.position import OnPath
 from nmm.stepping.control.trials import Trials
 from nmm.stepping.control.verdicts import no_balance, no_event
@@ -13,26 +13,26 @@ from nmm.stepping.drive.verdict import RunVerdict
 
 
 @dataclass(frozen=True)
-class Reached:
+class ReachedEvent:
     """Where a change of the load ends: where bonds give way, or else at the largest load.
 
     ``at_once`` says that they give way without one, as bonds that no load holds.
     """
 
-    tried: Tried
+    tried: TriedStep
     event: bool
     at_once: bool = False
 
 
-def next_event(trials: Trials, at: OnPath, most: float) -> Reached | RunVerdict:
+def next_event(trials: Trials, at: OnPath, most: float) -> ReachedEvent | RunVerdict:
     """Change the load to where the next bond is at its limit, or to a factor of ``most``.
 
     Where no load holds all bonds, those that are loaded most under the load as it stands give way
-    at once: `Reached.at_once`.
+    at once: `ReachedEvent.at_once`.
     """
     standing = trials.standing(at)
 
-    def try_(change: float) -> Tried:
+    def try_(change: float) -> TriedStep:
         return trials.of_load(standing, change)
 
     still = try_(0.0)
@@ -46,7 +46,7 @@ def next_event(trials: Trials, at: OnPath, most: float) -> Reached | RunVerdict:
             # Less load that loads bonds more: the path goes on under a larger one.
             other = outward(try_, still, -first) or other
         if other is None and still.over > 0:
-            return Reached(still, event=True, at_once=True)
+            return ReachedEvent(still, event=True, at_once=True)
         if other is None or not other.attempt.converged:
             end = no_event(at) if other is None else no_balance(at, other.attempt)
             return _at_most(try_, most - factor) or end
@@ -55,13 +55,13 @@ def next_event(trials: Trials, at: OnPath, most: float) -> Reached | RunVerdict:
         if not found.attempt.converged:
             return no_balance(at, found.attempt)
     last = _at_most(try_, most - factor) if factor + found.way > most else None
-    return last or Reached(replace(found, way=0.0), event=True)
+    return last or ReachedEvent(replace(found, way=0.0), event=True)
 
 
-def _at_most(try_: Callable[[float], Tried], change: float) -> Reached | None:
+def _at_most(try_: Callable[[float], TriedStep], change: float) -> ReachedEvent | None:
     """Return where the largest load stands; None where it is infinite, or bonds do not hold it."""
     if not np.isfinite(change):
         return None
     last = try_(change)
     holds = last.attempt.converged and last.load <= 1 + ABOVE
-    return Reached(replace(last, way=0.0), event=False) if holds else None
+    return ReachedEvent(replace(last, way=0.0), event=False) if holds else None

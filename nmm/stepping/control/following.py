@@ -13,16 +13,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from nmm.assembly.motion import State
-from nmm.controls.base import Control, Standing
+from nmm.controls.base import Control, PathState
 from nmm.controls.events import NextEvent
 from nmm.progress import Progress
-from nmm.stepping.control.events import Reached, next_event
-from nmm.stepping.control.locating import ABOVE, Tried, located
+from nmm.stepping.control.events import ReachedEvent, next_event
+from nmm.stepping.control.locating import ABOVE, TriedStep, located
 from nmm.stepping.control.position import OnPath, PathEnd
 from nmm.stepping.control.settling import settled
 from nmm.stepping.control.trials import Trials
 from nmm.stepping.control.verdicts import arrived, no_balance
-from nmm.stepping.drive.changes import Stands, asked, with_events
+from nmm.stepping.drive.changes import AcceptedState, asked, with_events
 from nmm.stepping.drive.settling import rounding
 from nmm.stepping.drive.until_verdict import until_verdict
 from nmm.stepping.drive.verdict import RunVerdict
@@ -70,7 +70,7 @@ def run_path(
     return until_verdict(at, step, recorder)
 
 
-def _ahead(at: OnPath, found: Tried) -> Tried:
+def _ahead(at: OnPath, found: TriedStep) -> TriedStep:
     """Return a trial, not converged where it jumps over the unloaded state to loads the other way.
 
     A control that is not the motion itself may have a second answer there, however short the step.
@@ -124,7 +124,7 @@ class _Following:
 
     def _changed(self, at: OnPath) -> OnPath:
         """Change the model where effects ask for it; the balance is to be found anew then."""
-        stands = Stands(at.state, at.contacts)
+        stands = AcceptedState(at.state, at.contacts)
         stands = with_events(self.recorder, stands, asked(self.recorder, stands), "load")
         way = at.way
         for change in stands.changes:  # a handful of effects
@@ -152,14 +152,14 @@ class _Following:
         lost = 0 if at.advance == whole else at.lost
         return replace(after, advance=min(whole, (2 if easy else 1) * at.advance), lost=lost)
 
-    def _by_load(self, at: OnPath, standing: Standing) -> bool:
+    def _by_load(self, at: OnPath, standing: PathState) -> bool:
         """Whether the load leads from where a path stands, and not what is controlled."""
         waits = self.control.idle(at.events, at.softened) and self.trials.may_give_way()
         return self.control.by_load or waits or not self.control.row(standing).any()
 
-    def _event_within(self, at: Standing, end: Tried) -> Tried:
+    def _event_within(self, at: PathState, end: TriedStep) -> TriedStep:
         """Return where on a step the first bond is at its limit, or the trial that failed."""
-        now = Tried(0.0, end.attempt, np.minimum(self.trials.loads(), 1.0))
+        now = TriedStep(0.0, end.attempt, np.minimum(self.trials.loads(), 1.0))
         return located(lambda way: self.trials.along(at, self.control.path(at, way)), now, end)
 
     def _shorter(self, at: OnPath, step: float, attempt: Attempt) -> OnPath | RunVerdict:
@@ -172,7 +172,7 @@ class _Following:
         """Change the load to where the next bond is at its limit, or to the largest."""
         trials = self.trials
         found = next_event(trials, at, self.end.factor)
-        while isinstance(found, Reached) and found.at_once:
+        while isinstance(found, ReachedEvent) and found.at_once:
             trials.give_way(found.tried.attempt)
             at = replace(at, events=at.events + 1)
             found = next_event(trials, at, self.end.factor)
@@ -183,7 +183,7 @@ class _Following:
             return no_balance(at, after) if isinstance(after, Attempt) else after
         return self._happened(at, found.tried, 0.0)
 
-    def _happened(self, at: OnPath, event: Tried, step: float) -> OnPath | RunVerdict:
+    def _happened(self, at: OnPath, event: TriedStep, step: float) -> OnPath | RunVerdict:
         """Accept a step to an event, let bonds give way, and find the balance after it.
 
         ``step`` is how far the step was to go; the load alone, without one, has no shorter.

@@ -17,7 +17,7 @@ JUMP = 1e-6
 
 
 @dataclass(frozen=True)
-class Tried:
+class TriedStep:
     """A trial: how far, what came of it, and load over strength of the joints' bonds there.
 
     ``each`` (k,) is in the order of the joints' points, and infinite where there is no solution.
@@ -38,7 +38,7 @@ class Tried:
         return self.load - 1.0
 
 
-def located(try_: Callable[[float], Tried], low: Tried, high: Tried) -> Tried:
+def located(try_: Callable[[float], TriedStep], low: TriedStep, high: TriedStep) -> TriedStep:
     """Return the trial at one between two, of which the load of ``high`` is above one.
 
     Of ``low`` only its loads are read. Where a trial in between has no solution it is returned;
@@ -62,7 +62,7 @@ def located(try_: Callable[[float], Tried], low: Tried, high: Tried) -> Tried:
     return best if abs(best.over) <= JUMP else _jumped(best, low, high)
 
 
-def _jumped(nearest: Tried, low: Tried, high: Tried) -> Tried:
+def _jumped(nearest: TriedStep, low: TriedStep, high: TriedStep) -> TriedStep:
     """Return the nearest trial as one that is no balance at which a bond is at its limit."""
     sentence = (
         f"the load of the bond that gives way first jumps from {low.load:.6g} to "
@@ -71,7 +71,7 @@ def _jumped(nearest: Tried, low: Tried, high: Tried) -> Tried:
     return replace(nearest, attempt=replace(nearest.attempt, converged=False, sentence=sentence))
 
 
-def _crossing(low: Tried, high: Tried, counts: list[float]) -> float:
+def _crossing(low: TriedStep, high: TriedStep, counts: list[float]) -> float:
     """Return how far the first bond is at its limit, if loads go in straight lines.
 
     Half way where one is infinite, as of a bond that shear would break under any such pull.
@@ -84,7 +84,7 @@ def _crossing(low: Tried, high: Tried, counts: list[float]) -> float:
     return low.way + share * (high.way - low.way)
 
 
-def outward(try_: Callable[[float], Tried], still: Tried, way: float) -> Tried | None:
+def outward(try_: Callable[[float], TriedStep], still: TriedStep, way: float) -> TriedStep | None:
     """Return a trial on the other side of one than ``still``, each further by secants.
 
     None where there is none, as loads do not change; a trial without a solution where one is met.

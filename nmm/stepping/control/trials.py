@@ -8,9 +8,9 @@ import numpy as np
 
 from integration.arrays import Bools, Floats
 from nmm.assembly.motion import MaterialPoints
-from nmm.controls.base import Standing
+from nmm.controls.base import PathState
 from nmm.controls.path_equation import PathEquation
-from nmm.stepping.control.locating import Tried
+from nmm.stepping.control.locating import TriedStep
 from nmm.stepping.control.position import OnPath
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
@@ -29,19 +29,19 @@ class Trials:
     stepper: Stepper
     monitors: Mapping[str, MaterialPoints]
 
-    def standing(self, at: OnPath) -> Standing:
+    def standing(self, at: OnPath) -> PathState:
         """Return what controls ask of where a path stands."""
-        return Standing(at.state, self.stepper.plan.unit_load(at.state), self.monitors, at.way)
+        return PathState(at.state, self.stepper.plan.unit_load(at.state), self.monitors, at.way)
 
-    def along(self, at: Standing, path: PathEquation) -> Tried:
+    def along(self, at: PathState, path: PathEquation) -> TriedStep:
         """Try a step along a path."""
         attempt = self.stepper.along(at.state, path)
         if attempt.converged and attempt.motion > self.stepper.size:
             attempt = replace(attempt, converged=False, sentence="points leave the domain")
         each = self._by_joint(attempt) if attempt.converged else np.full(1, np.inf)
-        return Tried(path.target, attempt, each)
+        return TriedStep(path.target, attempt, each)
 
-    def of_load(self, at: Standing, change: float) -> Tried:
+    def of_load(self, at: PathState, change: float) -> TriedStep:
         """Try a step by which the load factor changes so much."""
         return self.along(at, PathEquation(at.load, 0 * at.way, 1.0, change))
 

@@ -29,7 +29,7 @@ Asked = tuple[tuple[str, "Event"], ...]
 
 
 @dataclass(frozen=True)
-class Stands:
+class AcceptedState:
     """An accepted state with its contacts, what has happened in it, in words, and the changes."""
 
     state: State
@@ -38,7 +38,7 @@ class Stands:
     changes: "tuple[Change, ...]" = ()
 
 
-def asked(recorder: Recorder, at: Stands) -> Asked:
+def asked(recorder: Recorder, at: AcceptedState) -> Asked:
     """Return the events that effects ask for, by their names; nothing is changed."""
     plan = recorder.stepper.plan
     if not plan.askers:
@@ -49,7 +49,7 @@ def asked(recorder: Recorder, at: Stands) -> Asked:
     return tuple((name, event) for name, event in found if event is not None)
 
 
-def with_events(recorder: Recorder, at: Stands, events: Asked, stage: str) -> Stands:
+def with_events(recorder: Recorder, at: AcceptedState, events: Asked, stage: str) -> AcceptedState:
     """Change what was asked for, one event after the other; return what stands then."""
     stepper = recorder.stepper
     said: list[str] = []
@@ -62,14 +62,14 @@ def with_events(recorder: Recorder, at: Stands, events: Asked, stage: str) -> St
         change = stepper.reshape(now.geometry, at.state, now.held)
         follow(recorder, change, name)
         contact = stepper.plan.contact
-        at = Stands(change.state, None if contact is None else contact.standing)
+        at = AcceptedState(change.state, None if contact is None else contact.standing)
         said.append(now.what)
         changes.append(change)
     if not said:
         return at
     what = ", ".join(said)
     recorder.happened(at.state, stage, at.contacts, f"at {at.state.time:.6g}: {what}")
-    return Stands(at.state, at.contacts, what, tuple(changes))
+    return AcceptedState(at.state, at.contacts, what, tuple(changes))
 
 
 def follow(recorder: Recorder, change: "Change", cause: str = "", reset: bool = False) -> None:

@@ -7,7 +7,7 @@ from nmm.effects.base import Instant
 from nmm.errors import NmmError
 from nmm.frozen import with_parts
 from nmm.progress import Progress
-from nmm.stepping.drive.changes import Stands, asked, with_events
+from nmm.stepping.drive.changes import AcceptedState, asked, with_events
 from nmm.stepping.drive.in_time import ROUNDED_TIME, InTime, Schedule
 from nmm.stepping.drive.stable_step import longest_step, singular_mass
 from nmm.stepping.drive.until_verdict import broken_off
@@ -87,7 +87,7 @@ def _next(
     if not attempt.converged:
         return RunVerdict(FAILED, _failure(attempt, at.state, schedule))
     after, contacts = stepper.accept(attempt)
-    stands = Stands(after, contacts)
+    stands = AcceptedState(after, contacts)
     events = asked(recorder, stands) if schedule.events else ()
     said = recorder.step(before, attempt, contacts, after)
     if why:

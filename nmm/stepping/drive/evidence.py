@@ -6,14 +6,14 @@ import numpy as np
 
 from nmm.assembly.motion import State
 from nmm.stepping.bounds.static_theorem import carried
-from nmm.stepping.drive.settling import Settled, too_far
+from nmm.stepping.drive.settling import SettledStep, too_far
 from nmm.stepping.drive.vanishing_stiffness import vanishing_stiffness
 from nmm.stepping.step.anchors import block_name, largest_mover
 from nmm.stepping.step.stepper import Stepper
 
 
 def evidence(
-    stepper: Stepper, state: State, factor: float, found: Settled, names: Sequence[str]
+    stepper: Stepper, state: State, factor: float, found: SettledStep, names: Sequence[str]
 ) -> str | None:
     """Return the evidence that the structure, not the solver, has failed; None without any.
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from nmm.assembly.motion import State
 from nmm.errors import SolveError
 from nmm.progress import Progress
-from nmm.stepping.drive.changes import Stands, asked, with_events
+from nmm.stepping.drive.changes import AcceptedState, asked, with_events
 from nmm.stepping.drive.under_load import LoadSchedule, UnderLoad
 from nmm.stepping.drive.until_verdict import until_verdict
 from nmm.stepping.drive.verdict import CONVERGED, FAILED, RunVerdict
@@ -110,7 +110,7 @@ class _Growing:
     def _grown(self, at: UnderLoad, attempt: "Attempt") -> UnderLoad:
         """Accept the load of the present cracks, and the pieces by which they grow under it."""
         state, _ = self.stepper.accept(attempt)
-        stands = Stands(state, None)
+        stands = AcceptedState(state, None)
         events = asked(self.recorder, stands)
         self.recorder.step(at.state, attempt, None)
         self.recorder.offer(state, "load", None)

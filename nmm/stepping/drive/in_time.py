@@ -10,7 +10,7 @@ from nmm.frozen import with_parts
 if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints
     from nmm.formulation import Formulation
-    from nmm.stepping.adaptive.control import Chosen, StepControl
+    from nmm.stepping.adaptive.control import StepChoice, StepControl
     from nmm.stepping.step.stepper import Stepper
 
 # Of a step, about what sums of many steps are off by: 20 000 steps are 20 000, not one more of
@@ -103,7 +103,7 @@ class InTime:
     step: float
     cuts: int = 0
     why: str = ""
-    chosen: "Chosen | None" = None
+    chosen: "StepChoice | None" = None
 
     @classmethod
     def at_start(cls, state: State, schedule: Schedule) -> "InTime":

@@ -78,7 +78,7 @@ class Equilibrium:
 
 
 @dataclass(frozen=True)
-class WithEffects:
+class LinearStatics:
     """A model and effects on it that no scene names."""
 
     model: Model
@@ -101,7 +101,7 @@ def equilibrium(
         raise FormulationError(
             f"linear statics: {model.bent}: expected elastic laws of small strain: run a scene"
         )
-    solved = WithEffects(model, _plan(effects))
+    solved = LinearStatics(model, _plan(effects))
     system = LinearSystem(solved, solver_for(model.manifold, solver or Solver()), small=True)
     start = initial_state(model.manifold)
     equations = Assembly(solved).of(

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from nmm.stepping.run_state import RunPosition
 
 At = TypeVar("At", InTime, UnderLoad)
-Ended = tuple[State, RunVerdict]
+EndedRun = tuple[State, RunVerdict]
 
 
 class Keeps(Protocol):
@@ -57,14 +57,14 @@ class Phases:
         loads: LoadSchedule,
         at: "RunPosition | None",
         beyond: Beyond = unseen,
-    ) -> Ended:
+    ) -> EndedRun:
         """Let loads grow; ``beyond`` looks for limit points."""
         under = at or self.keeps.begin(UnderLoad.at_start(state, loads))
         assert isinstance(under, UnderLoad)
         ahead = under, loads, self.progress, self.names, self.keeps.keep, beyond
         return run_load(self.stepper, self.recorder, *ahead)
 
-    def in_time(self, state: State, times: Schedule, at: "RunPosition | None") -> Ended:
+    def in_time(self, state: State, times: Schedule, at: "RunPosition | None") -> EndedRun:
         """Let time pass."""
         moving = at or self.keeps.begin(InTime.at_start(state, times))
         assert isinstance(moving, InTime)
@@ -73,7 +73,7 @@ class Phases:
 
     def in_balance(
         self, state: State, loads: LoadSchedule, times: Schedule, at: "RunPosition | None"
-    ) -> Ended:
+    ) -> EndedRun:
         """Bring loads on while the clock stands; then let time pass, in equilibrium."""
         if not isinstance(at, InTime):
             state, verdict = self.under_loads(state, loads, at)

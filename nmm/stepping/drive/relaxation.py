@@ -42,7 +42,7 @@ STEPS = 400
 
 
 @dataclass(frozen=True)
-class Relaxed:
+class RelaxationEnd:
     """Where the search for rest ended.
 
     Attributes
@@ -72,7 +72,7 @@ class Relaxed:
 
 def relax(
     stepper: Stepper, state: State, end: Instant, names: Sequence[str], near: bool = False
-) -> Relaxed:
+) -> RelaxationEnd:
     """Move loose blocks under the loads of ``end`` until they rest; ``names`` (N,) of regions.
 
     Where they are to rest ``near`` where they stand, those that go further than `COLLAPSE` fall,
@@ -116,7 +116,7 @@ class _Search:
         self.first: Attempt | None = None
         self.start: float | None = None
 
-    def run(self) -> Relaxed:
+    def run(self) -> RelaxationEnd:
         """Move the blocks until they rest, or it is known that they fall."""
         for self.steps in range(1, STEPS + 1):
             length = self.pace.length
@@ -128,7 +128,7 @@ class _Search:
                 self.pace.lengthen()
         return self._given_up()
 
-    def _judged(self, found: Attempt, length: float) -> Relaxed | None:
+    def _judged(self, found: Attempt, length: float) -> RelaxationEnd | None:
         """Take a step, and say where the search ends by it; None where it goes on."""
         self._take(found, length)
         if self._gathers(found, length) and self.way > GATHERED * self.size:
@@ -139,7 +139,7 @@ class _Search:
         # A step cut short moves little, which is no rest.
         slow = found.motion < STILL * self.size * min(1.0, (length / self.pace.first) ** 2)
         if slow and self.pace.may_ask(self.steps) and _holds(self.stepper, still, self.end):
-            return Relaxed(still, self.steps, True, "", way=self.way, lost=self.lost)
+            return RelaxationEnd(still, self.steps, True, "", way=self.way, lost=self.lost)
         if self.way > self.farthest:
             return self._given_up()
         if self.near and self.steps % LOOK == 0:
@@ -169,22 +169,22 @@ class _Search:
         assert self.start is not None
         return not self.pace.keeps_speed and found.motion > GATHERS * self.start * length**2
 
-    def _cut(self, found: Attempt) -> Relaxed | None:
+    def _cut(self, found: Attempt) -> RelaxationEnd | None:
         """Shorten the step that failed; say where the search ends if it may be no shorter."""
         self.pace.cut()
         if not self.pace.ends:
             return None
         said = f"a step failed: {found.sentence}" if self.stands else self._fallen()
-        return Relaxed(self.state, self.steps, False, said, not self.stands)
+        return RelaxationEnd(self.state, self.steps, False, said, not self.stands)
 
-    def _given_up(self) -> Relaxed:
+    def _given_up(self) -> RelaxationEnd:
         if not self.stands:
             return self._falls(self._fallen())
         falls = self.way > self.farthest
-        return Relaxed(self.state, self.steps, False, self._who(), falls)
+        return RelaxationEnd(self.state, self.steps, False, self._who(), falls)
 
-    def _falls(self, sentence: str) -> Relaxed:
-        return Relaxed(self.state, self.steps, False, sentence, True)
+    def _falls(self, sentence: str) -> RelaxationEnd:
+        return RelaxationEnd(self.state, self.steps, False, sentence, True)
 
     def _fallen(self) -> str:
         assert self.proof is not None

@@ -16,7 +16,7 @@ from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints
-    from nmm.contact.solution.record import Breaking, Broken
+    from nmm.contact.solution.record import Breaking, BrokenBonds
 
 # Corrections for the turn of contacts and bodies end when they move nothing by more than this
 # share of the step's own motion, or by more than coordinates are rounded (in sizes of the domain,
@@ -38,7 +38,7 @@ COLLAPSE, BENDING = 0.05, 1.0
 
 
 @dataclass(frozen=True)
-class Settled:
+class SettledStep:
     """An attempt with its corrections, and the contacts as they are left.
 
     ``mechanism`` says that corrections went on without end.
@@ -59,8 +59,8 @@ def settle(
     state: State,
     end: Instant,
     breaking: "Breaking",
-    broken: "Broken | None" = None,
-) -> Settled:
+    broken: "BrokenBonds | None" = None,
+) -> SettledStep:
     """Find equilibrium on the updated geometry: solve, move, correct until nothing moves.
 
     ``broken`` are bonds that broke in an attempt of the same step before.
@@ -76,21 +76,21 @@ def settle(
         far = not stepper.small and total.motion > too_far(stepper)
         if far or not attempt.converged:
             mechanism = far and not stepper.kinematics.finite
-            return Settled(replace(total, converged=False), contacts, mechanism)
+            return SettledStep(replace(total, converged=False), contacts, mechanism)
         _, contacts = stepper.accept(attempt)
         if not stepper.anchored and stepper.small:
-            return Settled(total, contacts)
+            return SettledStep(total, contacts)
         if attempt.motion <= SETTLED * total.motion + least:
-            return Settled(total, contacts)
+            return SettledStep(total, contacts)
         last, way = attempt, way + attempt.motion
         attempt = stepper.attempt(_remembering(attempt.state, state), end, None, breaking)
         steady = steady + 1 if attempt.motion > SHRINKS * last.motion else 0
         total, count = joined(total, attempt), count + 1
         if stepper.anchored and steady >= STEADY and way > COLLAPSE * stepper.size:
             sentence = f"it moved by {way:.3g} m in {count} corrections that did not shrink"
-            return Settled(replace(total, converged=False, sentence=sentence), contacts, True)
+            return SettledStep(replace(total, converged=False, sentence=sentence), contacts, True)
     sentence = f"the moved place is not in equilibrium after {count} corrections"
-    return Settled(replace(total, converged=False, sentence=sentence), contacts)
+    return SettledStep(replace(total, converged=False, sentence=sentence), contacts)
 
 
 def _remembering(moved: State, start: State) -> State:
@@ -119,7 +119,7 @@ def joined(first: Attempt, then: Attempt) -> Attempt:
     )
 
 
-def may_be_loose(stepper: Stepper, found: "Settled") -> bool:
+def may_be_loose(stepper: Stepper, found: "SettledStep") -> bool:
     """Whether anchors may help a step without equilibrium: not where a bond was to break."""
     solved = found.attempt.solved
     stopped = found.attempt.converged or (solved is not None and solved.stopped)
@@ -136,8 +136,8 @@ def anchored(
     state: State,
     end: Instant,
     breaking: "Breaking",
-    before: Settled | None = None,
-) -> Settled:
+    before: SettledStep | None = None,
+) -> SettledStep:
     """Find equilibrium with anchors; where that succeeds they stay, and carry nothing.
 
     Bonds that broke in its first solution ``before``, which needed none, are broken.

@@ -13,7 +13,7 @@ from nmm.model.staging.stage_geometry import begun_with
 from nmm.progress import Progress
 from nmm.stepping.drive.changes import difference, follow
 from nmm.stepping.drive.in_time import InTime, Schedule
-from nmm.stepping.drive.phases import Ended, Keeps, Phases
+from nmm.stepping.drive.phases import EndedRun, Keeps, Phases
 from nmm.stepping.drive.under_load import LoadSchedule, UnderLoad
 from nmm.stepping.drive.verdict import CONVERGED, RunVerdict
 from nmm.stepping.reports.output import choice_in_time, choice_under_loads
@@ -144,7 +144,7 @@ def _solved(
     progress: Progress,
     keeps: Keeps,
     at: InTime | UnderLoad | None,
-) -> Ended:
+) -> EndedRun:
     """Solve one stage, in time or to rest, from its start or from where it stands."""
     stage, output, steps = staged.stage, staged.stage.scene.output, staged.stage.formulation
     phases = Phases(stepper, recorder, progress, staged.setup.region_name, keeps)

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 
 from nmm.assembly.motion import State
 from nmm.progress import Progress
-from nmm.stepping.drive.changes import Stands, asked, with_events
+from nmm.stepping.drive.changes import AcceptedState, asked, with_events
 from nmm.stepping.drive.evidence import evidence
-from nmm.stepping.drive.relaxation import Relaxed, relax
-from nmm.stepping.drive.settling import Settled, anchored, is_adrift, may_be_loose, settle
+from nmm.stepping.drive.relaxation import RelaxationEnd, relax
+from nmm.stepping.drive.settling import SettledStep, anchored, is_adrift, may_be_loose, settle
 from nmm.stepping.drive.under_load import Beyond, LoadSchedule, Rest, Trial, UnderLoad, unseen
 from nmm.stepping.drive.until_verdict import until_verdict
 from nmm.stepping.drive.verdict import (
@@ -132,7 +132,7 @@ class _Raising:
             stepper.restore(start)
             held = anchored(stepper, state, end, breaking)
             found = held if held.attempt.converged else settle(stepper, state, end, breaking)
-        stands = Stands(found.attempt.state, found.contacts)
+        stands = AcceptedState(found.attempt.state, found.contacts)
         events = asked(self.recorder, stands) if found.attempt.converged else ()
         return Trial(factor, fine, last, found, stepper.broken_bonds > bonds, events)
 
@@ -157,7 +157,7 @@ class _Raising:
         recorder.offer(state, "load", found.contacts)
         text = "  ".join([f"load factor {trial.factor:.5g}", said]).rstrip()
         self.progress(min(trial.factor / schedule.target, 1.0), text)
-        stands = with_events(recorder, Stands(state, found.contacts), trial.events, "load")
+        stands = with_events(recorder, AcceptedState(state, found.contacts), trial.events, "load")
         longer = min(2 * at.increment, schedule.increment)
         stays = trial.broke or bool(trial.events) or at.changed
         increment = at.increment if stays else longer
@@ -220,7 +220,7 @@ def _unsettled(attempt: Attempt) -> bool:
     return solved is not None and solved.answer.verdict.code == "passes"
 
 
-def _no_rest(rest: Relaxed) -> RunVerdict:
+def _no_rest(rest: RelaxationEnd) -> RunVerdict:
     sentence = f"after {rest.steps} steps of relaxation: {rest.sentence}"
     if rest.falls:
         return RunVerdict(COLLAPSED, f"no equilibrium of loose blocks {sentence}", 0.0)
@@ -230,7 +230,7 @@ def _no_rest(rest: Relaxed) -> RunVerdict:
 def _no_equilibrium(
     at: UnderLoad,
     factor: float,
-    found: Settled,
+    found: SettledStep,
     schedule: LoadSchedule,
     stepper: Stepper,
     names: Sequence[str],

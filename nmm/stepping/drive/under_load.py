@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.stepping.drive.changes import Asked
-from nmm.stepping.drive.settling import Settled
+from nmm.stepping.drive.settling import SettledStep
 from nmm.stepping.drive.verdict import LimitPoint
 
 if TYPE_CHECKING:
@@ -143,7 +143,7 @@ class Trial:
     factor: float
     fine: bool
     last: bool
-    found: Settled
+    found: SettledStep
     broke: bool
     events: Asked
 

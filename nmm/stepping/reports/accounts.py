@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True)
-class Account:
+class EnergySources:
     """Energies (J) that tell where what came from nowhere came from.
 
     ``made`` is what came; ``given`` is what the integrator gave: waves of one that is not monotone
@@ -18,9 +18,9 @@ class Account:
     lost: float = 0.0
     held: float = 0.0
 
-    def since(self, before: "Account") -> "Account":
+    def since(self, before: "EnergySources") -> "EnergySources":
         """Return by how much each has grown."""
-        return Account(
+        return EnergySources(
             self.made - before.made,
             self.given - before.given,
             self.contact - before.contact,
@@ -30,10 +30,10 @@ class Account:
 
 
 @dataclass(frozen=True)
-class Rise:
+class EnergyRise:
     """Energy that came from nowhere, and in which step (its number and time, s)."""
 
-    grown: Account = field(default_factory=Account)
+    grown: EnergySources = field(default_factory=EnergySources)
     step: int = 0
     time: float = 0.0
 

@@ -17,7 +17,7 @@ from nmm.quantity import APART, PLACES, Quantity
 
 
 @dataclass(frozen=True)
-class Declared:
+class DeclaredOutputs:
     """The outputs that a scene names, by their names there."""
 
     outputs: Mapping[str, Output] = field(default_factory=dict)

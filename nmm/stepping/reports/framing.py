@@ -9,8 +9,8 @@ from nmm.assembly.motion import State
 from nmm.effects.view import View
 from nmm.model.planning.pressures import patch_pressures
 from nmm.results.frame import Frame
-from nmm.stepping.reports.declared import Declared
-from nmm.stepping.reports.zero import Zero
+from nmm.stepping.reports.declared import DeclaredOutputs
+from nmm.stepping.reports.zero import ZeroDisplacement
 from nmm.stepping.step.stepper import Stepper
 
 if TYPE_CHECKING:
@@ -23,7 +23,12 @@ def viewed(stepper: Stepper, state: State, contacts: "ContactPoints | None") -> 
 
 
 def framed(
-    stepper: Stepper, view: View, declared: Declared, zero: Zero, index: int, stage: str
+    stepper: Stepper,
+    view: View,
+    declared: DeclaredOutputs,
+    zero: ZeroDisplacement,
+    index: int,
+    stage: str,
 ) -> Frame:
     """Return the frame of a state; ``declared`` are its quantities besides."""
     state, manifold = view.state, view.model.manifold

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 from nmm.assembly.motion import State
 from nmm.frozen import with_parts
-from nmm.stepping.reports.accounts import Account, Rise
+from nmm.stepping.reports.accounts import EnergyRise, EnergySources
 from nmm.stepping.reports.energies import standing, stored, untouched
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
     from nmm.model.planning.plan import Plan
-    from nmm.stepping.step.booking import Booked
+    from nmm.stepping.step.booking import BookedWork
 
 
 @dataclass(frozen=True)
@@ -77,15 +77,15 @@ class Ledger:
     stored_first: float = 0.0
     throughput: float = 0.0
     steps: int = 0
-    in_step: Rise = field(default_factory=Rise)
-    in_run: Rise = field(default_factory=Rise)
+    in_step: EnergyRise = field(default_factory=EnergyRise)
+    in_run: EnergyRise = field(default_factory=EnergyRise)
     given: float = 0.0
     change_energy: float = 0.0
     changed_by: Mapping[str, float] = field(default_factory=dict)
     settling: bool = False
     cause: str = ""
-    lowest: Account = field(default_factory=Account)
-    last: Account = field(default_factory=Account)
+    lowest: EnergySources = field(default_factory=EnergySources)
+    last: EnergySources = field(default_factory=EnergySources)
 
     def booked(
         self,
@@ -174,7 +174,9 @@ class Ledger:
         by = {**self.changed_by, cause: self.changed_by.get(cause, 0.0) + added}
         return replace(self, change_energy=self.change_energy + added, changed_by=by)
 
-    def _lost_in_time(self, step: "Booked", earlier: Mapping[str, float], loss: float) -> "Ledger":
+    def _lost_in_time(
+        self, step: "BookedWork", earlier: Mapping[str, float], loss: float
+    ) -> "Ledger":
         """Return the totals with what a step in time lost that began with ``earlier`` energies."""
         gain = {name: value - earlier[name] for name, value in self.energies.items()}
         lost = step.integration_loss(gain["kinetic_energy"])
@@ -236,7 +238,7 @@ class Ledger:
         total, lost = self.in_store, self.dissipated
         largest = max(self.throughput, abs(self.work), abs(total), abs(self.stored_first), lost)
         held = self.energies.get("support_energy", 0.0)
-        now = Account(self._made, self.given, -self.contact_loss, self.friction_loss, held)
+        now = EnergySources(self._made, self.given, -self.contact_loss, self.friction_loss, held)
         if not audited:
             return with_parts(self, throughput=largest, last=now, lowest=now)
         return with_parts(
@@ -248,8 +250,10 @@ class Ledger:
             lowest=min(self.lowest, now, key=lambda account: account.made),
         )
 
-    def _largest(self, known: Rise, now: Account, before: Account, time: float) -> Rise:
+    def _largest(
+        self, known: EnergyRise, now: EnergySources, before: EnergySources, time: float
+    ) -> EnergyRise:
         """Return the larger of a rise and the one to ``now`` since ``before``."""
         if now.made - before.made > known.energy:
-            return Rise(now.since(before), self.steps, time)
+            return EnergyRise(now.since(before), self.steps, time)
         return known

@@ -17,7 +17,7 @@ CHANGING = ("stick", "slide", "bonded", "broken")
 
 
 @dataclass(frozen=True)
-class Choice:
+class FrameChoice:
     """What is stored of one stretch of a run.
 
     Attributes
@@ -57,29 +57,29 @@ class Choice:
 
 def choice_in_time(
     asked: "OutputTable | None", begin: float, duration: float, frames: int = FRAMES
-) -> Choice:
+) -> FrameChoice:
     """Return what is stored of a stretch in time."""
     if asked is None or not asked.chooses:
-        return Choice(begin, duration / frames)
-    return Choice(begin, asked.every_time, asked.every_steps, frozenset(asked.events))
+        return FrameChoice(begin, duration / frames)
+    return FrameChoice(begin, asked.every_time, asked.every_steps, frozenset(asked.events))
 
 
-def choice_under_loads(asked: "OutputTable | None") -> Choice:
+def choice_under_loads(asked: "OutputTable | None") -> FrameChoice:
     """Return what is stored while loads grow, where there is no time."""
     if asked is None or (asked.every_steps is None and not asked.events):
-        return Choice(0.0, steps=1)
-    return Choice(0.0, None, asked.every_steps, frozenset(asked.events))
+        return FrameChoice(0.0, steps=1)
+    return FrameChoice(0.0, None, asked.every_steps, frozenset(asked.events))
 
 
 @dataclass(frozen=True)
-class Watch:
+class EventWatch:
     """What tells the events of the next step from the numbers of contact points in each state."""
 
     before: Mapping[str, int] = field(default_factory=dict)
     touched: bool = False
     slipped: bool = False
 
-    def seen(self, counts: Mapping[str, int]) -> tuple["Watch", frozenset[str]]:
+    def seen(self, counts: Mapping[str, int]) -> tuple["EventWatch", frozenset[str]]:
         """Return the watch after a step that leaves so many contacts in each state; its events."""
         touches = any(counts.get(name, 0) for name in TOUCHING)
         slips = counts.get("slide", 0) > 0
@@ -91,7 +91,7 @@ class Watch:
                 counts.get(name, 0) != self.before.get(name, 0) for name in CHANGING
             ),
         }
-        now = Watch(dict(counts), self.touched or touches, self.slipped or slips)
+        now = EventWatch(dict(counts), self.touched or touches, self.slipped or slips)
         return now, frozenset(name for name, true in found.items() if true)
 
 
@@ -125,7 +125,7 @@ class Storage:
 
 
 def storage(
-    choice: Choice, times: tuple[float, float | None] | None, points: int, elements: int
+    choice: FrameChoice, times: tuple[float, float | None] | None, points: int, elements: int
 ) -> Storage:
     """Return what frames of a run take; ``times`` are its duration and step, None under loads.
 

@@ -8,14 +8,14 @@ from nmm.effects.view import View
 from nmm.frozen import with_parts
 from nmm.results.sink import RESETS, Sink
 from nmm.stepping.reports.contact_tally import tallied
-from nmm.stepping.reports.declared import Declared
+from nmm.stepping.reports.declared import DeclaredOutputs
 from nmm.stepping.reports.framing import framed, viewed
 from nmm.stepping.reports.ledger import Ledger
 from nmm.stepping.reports.lengths import StepLengths
 from nmm.stepping.reports.monitors import Monitor, monitored
-from nmm.stepping.reports.output import Choice
+from nmm.stepping.reports.output import FrameChoice
 from nmm.stepping.reports.totals import Totals
-from nmm.stepping.reports.zero import Zero
+from nmm.stepping.reports.zero import ZeroDisplacement
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
 
@@ -47,11 +47,11 @@ class Recorder:
     stepper: Stepper
     sink: Sink
     monitors: list[Monitor]
-    choice: Choice = field(default_factory=lambda: Choice(0.0, steps=1))
-    declared: Declared = field(default_factory=Declared)
+    choice: FrameChoice = field(default_factory=lambda: FrameChoice(0.0, steps=1))
+    declared: DeclaredOutputs = field(default_factory=DeclaredOutputs)
     totals: Totals = field(default_factory=Totals)
     staged: bool = False
-    zero: Zero = field(default_factory=Zero)
+    zero: ZeroDisplacement = field(default_factory=ZeroDisplacement)
 
     @property
     def steps(self) -> int:

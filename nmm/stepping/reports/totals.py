@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from nmm.assembly.motion import State
 from nmm.stepping.reports.ledger import Ledger
 from nmm.stepping.reports.lengths import StepLengths
-from nmm.stepping.reports.output import Watch
+from nmm.stepping.reports.output import EventWatch
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class Totals:
     stiffest: float = 0.0
     largest: Mapping[str, int] = field(default_factory=dict)
     counts: Mapping[str, int] = field(default_factory=dict)
-    watch: Watch = field(default_factory=Watch)
+    watch: EventWatch = field(default_factory=EventWatch)
     taken: int = 0
     periods: int = 0
     stored: bool = True

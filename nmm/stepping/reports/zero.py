@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Zero:
+class ZeroDisplacement:
     """Where displacements are zero.
 
     Attributes

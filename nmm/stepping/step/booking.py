@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Booked:
+class BookedWork:
     """Work in one step in time (J).
 
     Attributes
@@ -63,7 +63,7 @@ def booked(
     missed: float = 0.0,
     off_line: float = 0.0,
     driven: float = 0.0,
-) -> Booked | None:
+) -> BookedWork | None:
     """Return the work in a step in time, None in statics.
 
     ``missed`` (J) is what the mean force of matter at both ends does beyond what it stores,
@@ -94,4 +94,4 @@ def booked(
     work = 0.0
     if solved is not None and solved.rows is not None:
         work = -float(solved.push @ increment)
-    return Booked(taken, beyond, work, terms.contact_factor, late, lost)
+    return BookedWork(taken, beyond, work, terms.contact_factor, late, lost)

@@ -21,7 +21,7 @@ class LaidAnew:
 
 
 @dataclass(frozen=True)
-class CarriedOver:
+class CarriedState:
     """All that is carried; whatever else is kept may be dropped at any time.
 
     Attributes

@@ -16,7 +16,7 @@ from nmm.contact.detection.tolerances import (
     FURTHER,
     MIDPOINT_SOLUTIONS,
 )
-from nmm.model.discretisation import Current
+from nmm.model.discretisation import CurrentDiscretisation
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.equations import Equations
 from nmm.stepping.step.mover import Mover
@@ -27,12 +27,12 @@ if TYPE_CHECKING:
     from nmm.contact.detection.crossing import Motion
     from nmm.contact.points.contact_points import ContactPoints
     from nmm.contact.points.half_way.mean_motion import Forces
-    from nmm.contact.solution.record import Broken, ContactSolution
+    from nmm.contact.solution.record import BrokenBonds, ContactSolution
     from nmm.effects.contact import Contact
 
 
 @dataclass(frozen=True)
-class Sought:
+class SoughtContacts:
     """The contacts with which a step is solved, and how often it was repeated, by cause.
 
     Attributes
@@ -61,11 +61,11 @@ class Sought:
     ahead: State | None
     forces: "Forces | None" = None
     crossed: "Crossed | None" = None
-    broken: "Broken | None" = None
+    broken: "BrokenBonds | None" = None
     crossings: int = 0
     midpoints: int = 0
 
-    def without(self, broken: "Broken") -> "Sought":
+    def without(self, broken: "BrokenBonds") -> "SoughtContacts":
         """Return what was sought without bonds that broke in the same step."""
         return replace(self, contacts=broken.among(self.contacts), broken=broken)
 
@@ -79,13 +79,15 @@ class ContactSearch:
         Diagonal of the domain (m).
     """
 
-    def __init__(self, current: Current, mover: Mover, size: float, clock: Clock) -> None:
+    def __init__(
+        self, current: CurrentDiscretisation, mover: Mover, size: float, clock: Clock
+    ) -> None:
         self._current, self._mover, self._size, self._clock = current, mover, size, clock
         self.forget()
 
     def forget(self) -> None:
         """Drop the contacts of the last step."""
-        self._last: tuple[State, Sought] | None = None
+        self._last: tuple[State, SoughtContacts] | None = None
 
     @property
     def contact(self) -> "Contact":
@@ -109,7 +111,7 @@ class ContactSearch:
         with self._clock.phase("search"):
             return self.contact.candidates(state, reach, step, crossed)
 
-    def first(self, equations: Equations, reach: float, again: bool) -> Sought:
+    def first(self, equations: Equations, reach: float, again: bool) -> SoughtContacts:
         """Return the contacts of a step: those of its last iteration where it is solved ``again``.
 
         Forces that bend move bodies by little from one iteration to the next.
@@ -119,20 +121,20 @@ class ContactSearch:
             return replace(last[1], crossings=0, midpoints=0)
         contacts = self.candidates(state, reach, equations.step)
         ahead = self._ahead(equations, contacts)
-        return Sought(reach, contacts, ahead, ahead)
+        return SoughtContacts(reach, contacts, ahead, ahead)
 
-    def keep(self, state: State, sought: Sought) -> None:
+    def keep(self, state: State, sought: SoughtContacts) -> None:
         """Keep the contacts of a step from a state for its next iteration."""
         self._last = state, sought
 
     def again(
         self,
         equations: Equations,
-        sought: Sought,
+        sought: SoughtContacts,
         solved: "ContactSolution",
         result: Attempt,
         motion: "Motion | None",
-    ) -> Sought | None:
+    ) -> SoughtContacts | None:
         """Return the contacts with which a step is repeated; None where its solution is accepted.
 
         ``motion`` is None where bodies moved beyond the reach of the search.
@@ -153,8 +155,8 @@ class ContactSearch:
         return replace(sought, midpoint=half, forces=forces, midpoints=sought.midpoints + 1)
 
     def _further(
-        self, equations: Equations, sought: Sought, solved: "ContactSolution", reach: float
-    ) -> Sought:
+        self, equations: Equations, sought: SoughtContacts, solved: "ContactSolution", reach: float
+    ) -> SoughtContacts:
         """Return the contacts within a larger ``reach`` (m); bonds that broke before stay broken.
 
         None of them was judged by a solution beyond the reach of the search.
@@ -163,7 +165,7 @@ class ContactSearch:
         broken = solved.broken or sought.broken
         return found if broken is None else found.without(broken)
 
-    def _anew(self, equations: Equations, sought: Sought) -> Sought:
+    def _anew(self, equations: Equations, sought: SoughtContacts) -> SoughtContacts:
         """Return the same with the contacts of a new search."""
         given = equations.state, sought.reach, equations.step, sought.crossed
         found = self.candidates(*given)

@@ -8,23 +8,23 @@ from integration.arrays import Floats
 from nmm.assembly.motion import State
 from nmm.contact.solution.request import StepRequest
 from nmm.frozen import with_parts
-from nmm.model.discretisation import Current
+from nmm.model.discretisation import CurrentDiscretisation
 from nmm.solvers.linear import LinearSolver
 from nmm.solvers.unchecked import product
 from nmm.stepping.step.clock import Clock
-from nmm.stepping.step.contact_search import ContactSearch, Sought
+from nmm.stepping.step.contact_search import ContactSearch, SoughtContacts
 from nmm.stepping.step.equations import Equations
 from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
     from nmm.contact.enforcement.null_space import NullSpace
-    from nmm.contact.solution.record import Breaking, Broken, ContactSolution
+    from nmm.contact.solution.record import Breaking, BrokenBonds, ContactSolution
     from nmm.controls.path_equation import PathEquation
     from nmm.stepping.step.contact_path import PathSteps
 
 
-class Touching:
+class ContactStepSolver:
     """Solves steps with contact.
 
     Parameters
@@ -42,7 +42,7 @@ class Touching:
 
     def __init__(
         self,
-        current: Current,
+        current: CurrentDiscretisation,
         mover: Mover,
         solver: LinearSolver,
         size: float,
@@ -64,7 +64,7 @@ class Touching:
         self,
         equations: Equations,
         breaking: "Breaking",
-        broken: "Broken | None",
+        broken: "BrokenBonds | None",
         reach: float,
         foreseen: Attempt | None = None,
     ) -> Attempt:
@@ -131,7 +131,7 @@ class Touching:
     def _solve(
         self,
         equations: Equations,
-        sought: Sought,
+        sought: SoughtContacts,
         breaking: "Breaking",
         held: "NullSpace | None",
         foreseen: Attempt | None,

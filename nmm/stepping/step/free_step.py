@@ -6,7 +6,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.errors import SolveError
-from nmm.model.discretisation import Current
+from nmm.model.discretisation import CurrentDiscretisation
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.equations import Equations
@@ -19,11 +19,16 @@ TRUSTED = 1e-4
 known of soft motions. The summary has the residual, and warns of it from 1e-6 on."""
 
 
-class Alone:
+class FreeStepSolver:
     """Solves steps without contact; see `LinearSystem` for what ``small`` says."""
 
     def __init__(
-        self, current: Current, mover: Mover, solver: LinearSolver, small: bool, clock: Clock
+        self,
+        current: CurrentDiscretisation,
+        mover: Mover,
+        solver: LinearSolver,
+        small: bool,
+        clock: Clock,
     ) -> None:
         self._current, self._mover, self._clock = current, mover, clock
         self._system = LinearSystem(current, solver, small)

@@ -10,7 +10,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State, strain_only
 from nmm.model.discretisation import ModelWithEffects
 from nmm.solvers.linear import Factor, LinearSolver
-from nmm.solvers.rigid_apart import ROUNDED, Apart, Bodies, rounding, solve_apart
+from nmm.solvers.rigid_apart import ROUNDED, Bodies, RigidSplit, rounding, solve_apart
 from nmm.solvers.rounding_error import rounding_changes
 from nmm.solvers.saddle import bordered
 from nmm.stepping.step.equations import Equations
@@ -32,7 +32,7 @@ class LinearSolution:
 
     increment: Floats
     rounded: float
-    apart: Apart | None = None
+    apart: RigidSplit | None = None
 
     @property
     def residual(self) -> float:
@@ -131,7 +131,7 @@ class LinearSystem:
         increment: Floats,
         force: Floats,
         border: tuple[csr_array, Floats] | None,
-    ) -> Apart | None:
+    ) -> RigidSplit | None:
         """Solution with rigid motions apart where rounding would spoil the stress; else None."""
         model, bent = self._solved.model, bool(self._solved.plan.bent)
         bent |= model.matter is not None

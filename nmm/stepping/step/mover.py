@@ -13,7 +13,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State, vertex_points
 from nmm.assembly.motion import move as plainly
 from nmm.frozen import with_parts
-from nmm.model.discretisation import Current
+from nmm.model.discretisation import CurrentDiscretisation
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.equations import Equations
@@ -42,7 +42,11 @@ class Mover:
     """
 
     def __init__(
-        self, current: Current, solver: LinearSolver, kinematics: Kinematics, clock: Clock
+        self,
+        current: CurrentDiscretisation,
+        solver: LinearSolver,
+        kinematics: Kinematics,
+        clock: Clock,
     ) -> None:
         self.current, self.solver, self._clock = current, solver, clock
         self.kinematics = kinematics

@@ -12,24 +12,24 @@ from nmm.effects.base import Instant, Span
 from nmm.errors import SolveError
 from nmm.frozen import with_parts
 from nmm.integrators.base import Integrator
-from nmm.model.discretisation import Current
+from nmm.model.discretisation import CurrentDiscretisation
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.stepping.step.booking import booked
-from nmm.stepping.step.carried import CarriedOver
+from nmm.stepping.step.carried import CarriedState
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.equations import Assembly, Equations, Linearisation
-from nmm.stepping.step.free_step import Alone
+from nmm.stepping.step.free_step import FreeStepSolver
 from nmm.stepping.step.mover import Mover
-from nmm.stepping.step.nonlinear.inner import Inner
+from nmm.stepping.step.nonlinear.inner import InternalForces
 from nmm.stepping.step.nonlinear.newton import Solution, Solve, newton
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints
-    from nmm.contact.solution.record import Breaking, Broken
+    from nmm.contact.solution.record import Breaking, BrokenBonds
     from nmm.controls.path_equation import PathEquation
     from nmm.effects.change import Change
-    from nmm.stepping.step.contact_step import Touching
+    from nmm.stepping.step.contact_step import ContactStepSolver
 
 
 class StepSolver:
@@ -52,7 +52,7 @@ class StepSolver:
 
     def __init__(
         self,
-        current: Current,
+        current: CurrentDiscretisation,
         solver: LinearSolver,
         kinematics: Kinematics,
         size: float,
@@ -62,18 +62,20 @@ class StepSolver:
         self._current, self._kinematics, self._clock = current, kinematics, clock
         self._assembly = Assembly(current)
         self.mover = Mover(current, solver, kinematics, clock)
-        self._alone = Alone(current, self.mover, solver, kinematics.small, clock)
+        self._alone = FreeStepSolver(current, self.mover, solver, kinematics.small, clock)
         touches = current.plan.contact is not None
         self._touching = self._contact_step(solver, size, carries) if touches else None
 
-    def _contact_step(self, solver: LinearSolver, size: float, carries: bool) -> "Touching":
+    def _contact_step(
+        self, solver: LinearSolver, size: float, carries: bool
+    ) -> "ContactStepSolver":
         """Return what solves steps with contact; not imported where nothing may touch."""
-        from nmm.stepping.step.contact_step import Touching
+        from nmm.stepping.step.contact_step import ContactStepSolver
 
-        return Touching(self._current, self.mover, solver, size, carries, self._clock)
+        return ContactStepSolver(self._current, self.mover, solver, size, carries, self._clock)
 
     @property
-    def _solvers(self) -> "tuple[Mover | Alone | Touching, ...]":
+    def _solvers(self) -> "tuple[Mover | FreeStepSolver | ContactStepSolver, ...]":
         """What solves a step and keeps factors for it."""
         always = self.mover, self._alone
         return always if self._touching is None else (*always, self._touching)
@@ -114,9 +116,9 @@ class StepSolver:
         end: Instant,
         step: float | None,
         rule: Integrator,
-        carried: CarriedOver,
+        carried: CarriedState,
         breaking: "Breaking",
-        broken: "Broken | None" = None,
+        broken: "BrokenBonds | None" = None,
     ) -> Attempt:
         """Solve the step from ``state`` to ``end``; ``step`` is its length (s); None is statics.
 
@@ -157,7 +159,7 @@ class StepSolver:
         current, moves, clock = self._current, self._kinematics, self._clock
         # Methods of contact are for symmetric matrices.
         symmetric = current.plan.contact is not None
-        inner = Inner(current, state, end, step, rule, moves, symmetric, clock)
+        inner = InternalForces(current, state, end, step, rule, moves, symmetric, clock)
         equations, found = newton(inner, state, solve, clock)
         factor, matter = self._alone.factor, current.model.matter
         if not moves.finite or factor is None or matter is None:
@@ -180,7 +182,7 @@ class StepSolver:
     def _solved(
         self,
         equations: Equations,
-        bonds: tuple["Breaking", "Broken | None"],
+        bonds: tuple["Breaking", "BrokenBonds | None"],
         reach: float,
         before: Attempt | None,
     ) -> Attempt:

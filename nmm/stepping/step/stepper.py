@@ -12,11 +12,11 @@ from nmm.effects.base import Instant
 from nmm.integrators.base import Integrator
 from nmm.integrators.starting import rule_of
 from nmm.model.build import reshaped
-from nmm.model.discretisation import Current, Discretisation
+from nmm.model.discretisation import CurrentDiscretisation, Discretisation
 from nmm.model.solver_settings import solver_of_run
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.stepping.step.budget import Budget
-from nmm.stepping.step.carried import CarriedOver, LaidAnew
+from nmm.stepping.step.carried import CarriedState, LaidAnew
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.remap import Lay, laid_as, laid_here
 from nmm.stepping.step.step_solver import StepSolver
@@ -25,7 +25,7 @@ from nmm.stepping.step.trial import Attempt
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
     from nmm.contact.points.contact_points import ContactPoints
-    from nmm.contact.solution.record import Breaking, Broken, ContactRecord
+    from nmm.contact.solution.record import Breaking, BrokenBonds, ContactRecord
     from nmm.controls.path_equation import PathEquation
     from nmm.effects.change import Change
     from nmm.geometry.geometry import Geometry
@@ -62,19 +62,19 @@ class Stepper:
         self.budget = Budget()
         self.reference = discretisation.model.manifold.elements.points
         self.size = float(np.hypot(*np.ptp(self.reference, axis=0)))
-        self._current, self._lay, self.clock = Current(discretisation), lay, clock
+        self._current, self._lay, self.clock = CurrentDiscretisation(discretisation), lay, clock
         self._among = discretisation.plan.contact is not None
         self._geometry: Geometry | None = None
         self._integrator = self._ruling(integrator)
         carries = self._integrator.carries
         self._steps = StepSolver(self._current, solver, kinematics, self.size, carries, clock)
-        self._carried = CarriedOver(self._steps.reach())
+        self._carried = CarriedState(self._steps.reach())
 
     def _ruling(self, integrator: Integrator) -> Integrator:
         return integrator.among_contacts if self._among else integrator
 
     @property
-    def carried(self) -> CarriedOver:
+    def carried(self) -> CarriedState:
         """All that is carried from accepted step to accepted step besides the bodies' state."""
         laid, stress = None, self.plan.initial_stress
         if self._lay is not None and stress is not None:
@@ -82,7 +82,7 @@ class Stepper:
         effects = self.plan.carried()
         return replace(self._carried, laid=laid, geometry=self._geometry, effects=effects)
 
-    def carry(self, carried: CarriedOver) -> None:
+    def carry(self, carried: CarriedState) -> None:
         """Continue from what was carried in another run, without what was kept here."""
         if carried.geometry is not None and self._geometry is None:
             self.reshape(carried.geometry, self.discretisation.setup.start)
@@ -92,7 +92,7 @@ class Stepper:
         self.plan.carry(carried.effects)
         self.forget()
 
-    def return_to(self, carried: CarriedOver) -> None:
+    def return_to(self, carried: CarriedState) -> None:
         """Return to the accepted step of `carried`; what is kept for speed stays."""
         self._carried = replace(carried, laid=None, geometry=None, effects={})
         self.plan.carry(carried.effects)
@@ -159,7 +159,7 @@ class Stepper:
         end: Instant,
         step: float | None,
         breaking: "Breaking" = "all",
-        broken: "Broken | None" = None,
+        broken: "BrokenBonds | None" = None,
     ) -> Attempt:
         """Solve the step from ``state`` to ``end``; ``step`` is its length (s); None is statics.
 
@@ -244,7 +244,7 @@ class Stepper:
         self._steps.solve_by(solver)
         self.size = max(self.size, float(np.hypot(*np.ptp(self.reference, axis=0))))
         self._geometry = None
-        self._carried = CarriedOver(self._carried.reach)
+        self._carried = CarriedState(self._carried.reach)
         self.forget()
 
     def candidates(self, state: State, reach: float, step: float | None) -> "ContactPoints":

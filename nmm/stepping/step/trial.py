@@ -9,7 +9,7 @@ from integration.arrays import Floats
 from nmm.assembly.motion import State
 from nmm.errors import SolveError
 from nmm.frozen import with_parts
-from nmm.stepping.step.booking import Booked
+from nmm.stepping.step.booking import BookedWork
 
 if TYPE_CHECKING:
     from nmm.contact.solution.record import ContactSolution
@@ -54,7 +54,7 @@ class Attempt:
     residual: float
     passes: int
     solved: "ContactSolution | None" = None
-    booked: Booked | None = None
+    booked: BookedWork | None = None
     singular: bool = False
     imbalances: tuple[float, ...] = ()
     missed: Floats | None = None

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Spent:
+class SpentTime:
     """What one repeat took: processor and wall-clock seconds, and where they went."""
 
     seconds: float
@@ -94,7 +94,7 @@ def machine() -> str:
     return f"{kind.strip()}, {os.cpu_count()} cores, {platform.system()} {platform.release()}"
 
 
-def _once(case: StudyCase, names: Sequence[str]) -> tuple[Record, Spent]:
+def _once(case: StudyCase, names: Sequence[str]) -> tuple[Record, SpentTime]:
     from nmm.results.summary import Summary
 
     cpu, wall = process_time(), perf_counter()
@@ -102,12 +102,12 @@ def _once(case: StudyCase, names: Sequence[str]) -> tuple[Record, Spent]:
     try:
         done = run_case(case)
         summary = done.summary
-        spent = Spent(process_time() - cpu, perf_counter() - wall, summary)
+        spent = SpentTime(process_time() - cpu, perf_counter() - wall, summary)
         return _record(case, done, names), spent
     # A case that breaks in any way is a result of the study, and the other cases go on.
     except Exception as fault:
         kind = "" if isinstance(fault, NmmError) else f"{type(fault).__name__}: "
-        spent = Spent(process_time() - cpu, perf_counter() - wall, summary)
+        spent = SpentTime(process_time() - cpu, perf_counter() - wall, summary)
         sentence = " ".join(f"{kind}{fault}".split())
         return Record(**_identity(case), status="error", sentence=sentence), spent
 
@@ -165,7 +165,7 @@ def _record(case: StudyCase, done: Measured, names: Sequence[str]) -> Record:
     )
 
 
-def _joined(found: Record, times: Sequence[Spent], peak: int | None) -> Record:
+def _joined(found: Record, times: Sequence[SpentTime], peak: int | None) -> Record:
     """Return the record with the cost of its repeats; phases are those of the median one."""
     if not times:
         return replace(found, memory=peak)

@@ -7,7 +7,7 @@ import pytest
 
 from covers.scalar.space import ScalarSpace
 from nmm.assembly.places import on_edges
-from nmm.diffusion.course import Course, FieldAt
+from nmm.diffusion.course import FieldAt, FieldCourse
 from nmm.diffusion.edges import steadily
 from nmm.diffusion.holding import held
 from nmm.diffusion.matrices import products, slopes
@@ -30,7 +30,7 @@ def course(theta, step=None):
     problem = DiffusionProblem(
         space, slopes(space, ones), products(space, ones), [rim], [], [], solver
     )
-    return Course(problem, FieldAt(0.0, space.one, {}), theta, step)
+    return FieldCourse(problem, FieldAt(0.0, space.one, {}), theta, step)
 
 
 @pytest.mark.parametrize(("theta", "order"), [(0.5, 2.0), (1.0, 1.0)])
@@ -51,7 +51,7 @@ def even(source):
     problem, one = found.problem, found.problem.space.one
     load = VolumeSource("source", source * (problem.capacity @ one), steadily)
     problem = replace(problem, edges=[], sources=[load] if source else [])
-    return Course(problem, FieldAt(0.0, one, {}))
+    return FieldCourse(problem, FieldAt(0.0, one, {}))
 
 
 def test_an_even_field_that_nothing_loads_is_not_solved_again(monkeypatch):

@@ -3,7 +3,7 @@
 import math
 
 from nmm.compiled import compiled
-from nmm.contact.detection.narrow.tables import Before, Shape
+from nmm.contact.detection.narrow.tables import EdgesOfVertex, Shape
 from nmm.contact.detection.tolerances import Rules
 
 
@@ -27,7 +27,7 @@ def measure(shape: Shape, v: int, e: int) -> tuple[float, float]:
 
 
 @compiled
-def cover(shape: Shape, v: int, before: Before, rules: Rules) -> None:
+def cover(shape: Shape, v: int, before: EdgesOfVertex, rules: Rules) -> None:
     """Enter the flush covers of both edges at a vertex."""
     edge, low, high, s, gap = before
     cosine = math.sqrt(1.0 - rules.sine * rules.sine)

@@ -6,7 +6,7 @@ from integration.arrays import Bools, Floats
 from nmm.compiled import compiled
 from nmm.contact.detection.narrow.edges import thinner
 from nmm.contact.detection.narrow.shields import leaves, rays, shielded
-from nmm.contact.detection.narrow.tables import Before, Shape, Small
+from nmm.contact.detection.narrow.tables import EdgesOfVertex, Shape, Small
 from nmm.contact.detection.tolerances import Rules
 
 INTERIOR, USABLE = 1, 2
@@ -42,7 +42,9 @@ def _inside(shape: Shape, one: int, other: int, rules: Rules) -> bool:
 
 
 @compiled
-def judge(shape: Shape, v: int, before: Before, known: Bools, state: Small, rules: Rules) -> None:
+def judge(
+    shape: Shape, v: int, before: EdgesOfVertex, known: Bools, state: Small, rules: Rules
+) -> None:
     """Enter for each row of a vertex whether the foot is inside and the edge can be entered."""
     edge, low, high, s, gap = before
     p = shape[v].previous
@@ -93,7 +95,13 @@ def _passes(shape: Shape, v: int, e: int, s: float, gap: float) -> bool:
 
 @compiled
 def dominate(
-    shape: Shape, v: int, before: Before, state: Small, rank: Floats, kept: Small, rules: Rules
+    shape: Shape,
+    v: int,
+    before: EdgesOfVertex,
+    state: Small,
+    rank: Floats,
+    kept: Small,
+    rules: Rules,
 ) -> None:
     """Keep of the rows of a vertex those over which no other edge of the same body stands."""
     edge, low, high, s, gap = before

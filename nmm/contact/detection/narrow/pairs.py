@@ -11,7 +11,7 @@ from nmm.contact.detection.narrow.tables import Shape, Small
 from nmm.contact.detection.tolerances import Rules
 
 Four = tuple[int, int, int, int]
-Chosen = tuple[bool, bool, bool, bool]
+StepChoice = tuple[bool, bool, bool, bool]
 
 
 @compiled
@@ -31,7 +31,7 @@ def _beyond(
 
 
 @compiled
-def _best(lines: Four, eligible: Chosen, rank: Floats) -> int:
+def _best(lines: Four, eligible: StepChoice, rank: Floats) -> int:
     """Index of the eligible line of highest rank, the first row among equals; -1 without any."""
     best = -1
     for i in range(4):

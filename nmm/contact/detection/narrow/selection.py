@@ -12,8 +12,8 @@ from nmm.contact.detection.narrow.edges import cover, measure
 from nmm.contact.detection.narrow.lines import USABLE, dominate, judge, rank_of
 from nmm.contact.detection.narrow.pairs import pair
 from nmm.contact.detection.narrow.tables import (
-    Before,
     Columns,
+    EdgesOfVertex,
     Shape,
     Small,
     describe,
@@ -54,13 +54,13 @@ def select(
         low, high = offset[v], offset[v + 1]
         for k in range(low, high):
             s[k], gap[k] = measure(shape, v, edge[k])
-        cover(shape, v, Before(edge, low, high, s, gap), rules)
+        cover(shape, v, EdgesOfVertex(edge, low, high, s, gap), rules)
     state, kept = np.empty(m, np.int8), np.empty(m, np.int8)
     rank = np.empty(m)
     known = _known(edge, offset, last)
     for v in range(n):
         low, high = offset[v], offset[v + 1]
-        before = Before(edge, low, high, s, gap)
+        before = EdgesOfVertex(edge, low, high, s, gap)
         judge(shape, v, before, known, state, rules)
         for k in range(low, high):
             if state[k] & USABLE:

@@ -16,7 +16,7 @@ Columns = tuple[Ints, Ints, Floats, Floats, Floats, Ints, Ints, Ints, Ints]
 """Those of `narrow_phase.Contacts`."""
 
 
-class Before(NamedTuple):
+class EdgesOfVertex(NamedTuple):
     """The candidate edges before which one vertex stands: rows ``low`` to ``high`` of all.
 
     Attributes

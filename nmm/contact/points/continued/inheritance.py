@@ -23,7 +23,7 @@ NEAR = 1e-9
 
 
 @dataclass(frozen=True)
-class Heirs:
+class PointHeirs:
     """Which old contact points new ones continue.
 
     Attributes
@@ -39,7 +39,7 @@ class Heirs:
     child: Ints
     same: Bools
 
-    def only_same(self, chosen: Bools) -> "Heirs":
+    def only_same(self, chosen: Bools) -> "PointHeirs":
         """Return the heirs but for those of ``chosen`` (m,) that lie beside their parents.
 
         What a crack has grown by continues nothing, however near its old end is.
@@ -48,7 +48,9 @@ class Heirs:
         if not beside.any():
             return self
         lost = beside[np.maximum(self.child, 0)] & (self.child >= 0)
-        return Heirs(np.where(beside, -1, self.parent), np.where(lost, -1, self.child), self.same)
+        return PointHeirs(
+            np.where(beside, -1, self.parent), np.where(lost, -1, self.child), self.same
+        )
 
     def shared(self, values: Floats, length: Floats) -> Floats:
         """Divide sums (k,) of the old points among the new ones (m,) by ``length`` (m,)."""
@@ -68,7 +70,7 @@ class Heirs:
         return np.where(self.parent >= 0, values[np.maximum(self.parent, 0)], fallback)
 
 
-def heirs(kin: Parentage, new: ContactPoints, old: ContactPoints) -> Heirs:
+def heirs(kin: Parentage, new: ContactPoints, old: ContactPoints) -> PointHeirs:
     """Find the nearest points between the same bodies, or bodies that come from them."""
     from scipy.spatial import KDTree
 
@@ -78,7 +80,7 @@ def heirs(kin: Parentage, new: ContactPoints, old: ContactPoints) -> Heirs:
     size = float(np.hypot(*np.ptp(kin.new.elements.points, axis=0)))
     if not len(pair_new) or not len(pair_old):
         none = np.full(len(pair_new), -1), np.full(len(pair_old), -1)
-        return Heirs(*none, np.zeros(len(pair_new), dtype=bool))
+        return PointHeirs(*none, np.zeros(len(pair_new), dtype=bool))
     # Pairs of bodies lie further apart than any two points of one pair.
     number = np.unique(np.concatenate([pair_new, pair_old]), return_inverse=True)[1].ravel()
     apart = 10 * size * number[:, None]
@@ -91,11 +93,11 @@ def heirs(kin: Parentage, new: ContactPoints, old: ContactPoints) -> Heirs:
     )
     known = parent >= 0
     same = known & (far <= NEAR * size) & (child[np.maximum(parent, 0)] == np.arange(len(parent)))
-    return Heirs(parent, child, same)
+    return PointHeirs(parent, child, same)
 
 
 def continued(
-    new: ContactPoints, old: ContactPoints, line: Heirs, springs: tuple[Floats, Floats] | None
+    new: ContactPoints, old: ContactPoints, line: PointHeirs, springs: tuple[Floats, Floats] | None
 ) -> ContactPoints:
     """Return found points with what the old ones leave them.
 
@@ -127,7 +129,7 @@ def continued(
     )
 
 
-def continued_joints(new: JointBook, old: JointBook, line: Heirs) -> tuple[JointBook, Bools]:
+def continued_joints(new: JointBook, old: JointBook, line: PointHeirs) -> tuple[JointBook, Bools]:
     """Return the book of joints with damage and slip of the old one; and which points are new.
 
     ``line`` is of ``new.points`` and of `known_joints` of the old one: joints that were given up

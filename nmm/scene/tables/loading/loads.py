@@ -6,7 +6,7 @@ from typing import Literal, NamedTuple
 
 from pydantic import Field, model_validator
 
-from nmm.scene.actions import Placed, given
+from nmm.scene.actions import PlacedTable, given
 from nmm.scene.fields import Force, ForceDensity, Length, Stress, Time, Velocity, fault
 from nmm.scene.tables.loading.expressions import FieldOf
 
@@ -28,7 +28,7 @@ _LOADS = {
 _MAGNITUDES = ("force", "traction", "density", "pressure", "field")
 
 
-class LoadTable(Placed):
+class LoadTable(PlacedTable):
     """A force at a point, a traction on a segment of the boundary, or a force on volume.
 
     Forces and tractions keep their direction while blocks turn; a "pressure" turns with the

@@ -16,7 +16,7 @@ from integration.arrays import Floats
 from nmm.assembly.kinematics import Kinematics
 from nmm.assembly.motion import State, coordinate_rounding
 from nmm.effects.base import Instant, Span, StepForce, defines
-from nmm.model.discretisation import Current
+from nmm.model.discretisation import CurrentDiscretisation
 from nmm.stepping.step.nonlinear.iterate import EffectPart, size
 
 # Forces of effects below this share of those of a step count as so large.
@@ -40,7 +40,7 @@ class EffectForces:
 
     def __init__(
         self,
-        current: Current,
+        current: CurrentDiscretisation,
         state: State,
         end: Instant,
         span: Span,
@@ -120,7 +120,7 @@ class EffectForces:
         scale: Floats,
         applied: Floats,
     ) -> float:
-        """Return what the tangent at ``now`` missed at ``then``; see `Inner.imbalance`.
+        """Return what the tangent at ``now`` missed at ``then``; see `InternalForces.imbalance`.
 
         ``increment`` (n,) is that of ``then``.
         """

@@ -7,7 +7,7 @@ from nmm.assembly.kinematics import Kinematics
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant, Span
 from nmm.integrators.base import Integrator
-from nmm.model.discretisation import Current
+from nmm.model.discretisation import CurrentDiscretisation
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.equations import BALANCED
 from nmm.stepping.step.nonlinear.effect_forces import EffectForces
@@ -18,7 +18,7 @@ from nmm.stepping.step.nonlinear.matter_forces import MatterForces
 CONSERVED = 1e-13
 
 
-class Inner:
+class InternalForces:
     """Internal forces of one step that starts at a state.
 
     Parameters
@@ -47,7 +47,7 @@ class Inner:
 
     def __init__(
         self,
-        current: Current,
+        current: CurrentDiscretisation,
         state: State,
         end: Instant,
         step: float | None,

@@ -12,7 +12,7 @@ from nmm.solvers.unchecked import product
 
 
 @dataclass(frozen=True)
-class InnerPart:
+class InternalForcePart:
     """Internal force (n,) of one kind at an iterate, and what makes its tangent (n, n)."""
 
     force: Floats
@@ -23,13 +23,13 @@ class InnerPart:
         """Tangent (n, n)."""
         return self.make()
 
-    def missed(self, now: "InnerPart", way: Floats) -> Floats:
+    def missed(self, now: "InternalForcePart", way: Floats) -> Floats:
         """What the tangent of another iterate, ``way`` (n,) from here, missed of the force (n,)."""
         return self.force - now.force - product(now.stiffness, way)
 
 
 @dataclass(frozen=True)
-class EffectPart(InnerPart):
+class EffectPart(InternalForcePart):
     """The same of effects, beyond their line at the start of the step.
 
     Attributes
@@ -57,7 +57,7 @@ class Iterate:
     """
 
     increment: Floats
-    matter: InnerPart
+    matter: InternalForcePart
     effects: EffectPart
     history: Mapping[str, Floats]
     memory: Mapping[str, Floats]

@@ -1,7 +1,7 @@
 """How far an iteration goes: the whole step, or less where forces overshoot along it."""
 
 from nmm.stepping.step.equations import Equations, Linearisation
-from nmm.stepping.step.nonlinear.inner import Inner
+from nmm.stepping.step.nonlinear.inner import InternalForces
 from nmm.stepping.step.nonlinear.iterate import Iterate
 
 # A full step is taken when it leaves at most this share of its slope; else it is shortened, at most
@@ -14,7 +14,7 @@ def searched(
     line: Linearisation,
     now: Iterate,
     then: Iterate,
-    inner: Inner,
+    inner: InternalForces,
 ) -> Iterate:
     """Return the next iterate: the whole step, or less where the forces overshoot along it.
 

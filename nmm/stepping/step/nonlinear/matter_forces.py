@@ -10,7 +10,7 @@ from nmm.assembly.matter import STRESS, SWELLING
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.solvers.unchecked import product
-from nmm.stepping.step.nonlinear.iterate import InnerPart, size
+from nmm.stepping.step.nonlinear.iterate import InternalForcePart, size
 
 if TYPE_CHECKING:
     from nmm.assembly.finite_strain.finite_matter import FiniteMatter
@@ -64,7 +64,7 @@ class MatterForces:
 
     def at(
         self, increment: Floats, before: Floats | None
-    ) -> tuple[InnerPart, Mapping[str, Floats]]:
+    ) -> tuple[InternalForcePart, Mapping[str, Floats]]:
         """Return the forces at an increment (n,) of the step, and what matter then remembers.
 
         ``before`` (n,) is the increment of the last iterate; None in the first one.
@@ -73,7 +73,7 @@ class MatterForces:
         whole = state.deformation + increment
         if matter is None:
             stiffness = self._model.stiffness
-            return InnerPart(product(stiffness, whole), lambda: stiffness), state.history
+            return InternalForcePart(product(stiffness, whole), lambda: stiffness), state.history
         if self._conserves:
             return self._conserving(whole), state.history
         last = None if before is None else state.deformation + before
@@ -84,29 +84,31 @@ class MatterForces:
         stays = not increment.any() and _rounding(answer.stress, state.history.get(STRESS))
         force = self.start if stays else matter.force(whole, answer.stress)
         tangent = answer.tangent
-        return InnerPart(force, lambda: matter.stiffness(tangent, self._symmetric)), answer.history
+        return InternalForcePart(
+            force, lambda: matter.stiffness(tangent, self._symmetric)
+        ), answer.history
 
-    def _conserving(self, whole: Floats) -> InnerPart:
+    def _conserving(self, whole: Floats) -> InternalForcePart:
         """Return the force that, weighed with that of the start, is the one of the whole step."""
         matter, weight = cast("FiniteMatter", self._model.matter), self._weight
         answer = matter.conserving(self._state.deformation, whole)
         force = matter.force(whole, answer.stress)
         tangent = answer.tangent / weight
-        return InnerPart(
+        return InternalForcePart(
             (force - (1 - weight) * self.start) / weight,
             lambda: matter.stiffness(tangent, self._symmetric),
         )
 
     def imbalance(
         self,
-        now: InnerPart,
-        then: InnerPart,
+        now: InternalForcePart,
+        then: InternalForcePart,
         way: Floats,
         scale: Floats,
         applied: Floats,
         touching: Floats | None,
     ) -> float:
-        """Return what the tangent at ``now`` missed at ``then``; see `Inner.imbalance`."""
+        """Return what the tangent at ``now`` missed at ``then``; see `InternalForces.imbalance`."""
         if self._model.matter is None:
             return 0.0
         missed = then.missed(now, way)

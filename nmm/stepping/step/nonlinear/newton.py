@@ -19,7 +19,7 @@ from nmm.frozen import with_parts
 from nmm.solvers.unchecked import product
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.equations import Equations, Linearisation
-from nmm.stepping.step.nonlinear.inner import Inner
+from nmm.stepping.step.nonlinear.inner import InternalForces
 from nmm.stepping.step.nonlinear.iterate import Iterate
 from nmm.stepping.step.nonlinear.line_search import searched
 from nmm.stepping.step.trial import Attempt
@@ -45,7 +45,7 @@ FLOWS = 1e-2
 
 
 def newton(
-    inner: Inner,
+    inner: InternalForces,
     state: State,
     solve: Solve,
     clock: Clock,
@@ -108,7 +108,7 @@ def _goes_on(found: Attempt) -> bool:
     return found.solved is not None and found.solved.stopped
 
 
-def _line(inner: Inner, at: Iterate, clock: Clock) -> Linearisation:
+def _line(inner: InternalForces, at: Iterate, clock: Clock) -> Linearisation:
     with clock.phase("assembly"):
         stiffness = at.stiffness
     force = at.force - product(stiffness, at.increment) if at.increment.any() else at.force

@@ -34,9 +34,9 @@ integrator = { type = "newmark", step = "5 ms" }
 
 def untouched():
     """Return the class that solves such steps; not imported where nothing may touch."""
-    from nmm.contact.solution.untouched import Untouched
+    from nmm.contact.solution.untouched import StepsWithoutContacts
 
-    return Untouched
+    return StepsWithoutContacts
 
 
 def test_they_fly_as_without_contact_and_their_matrix_is_kept(monkeypatch):

@@ -11,7 +11,7 @@ from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.errors import NmmError
 from nmm.formulation import Formulation, parse_formulation
-from nmm.fracture.growth.running import Running
+from nmm.fracture.growth.running import RunningTips
 from nmm.fracture.growth.speed import freund, rayleigh_part
 from nmm.scene.model import Scene
 from nmm.scene.read import parse_scene
@@ -86,7 +86,7 @@ def test_a_tip_runs_where_what_comes_in_is_what_growth_takes() -> None:
 
 def test_a_tip_takes_the_time_that_its_speed_says_for_every_piece() -> None:
     """At a constant speed: half of it until the piece is cut, half until it is through."""
-    tip, step, cut = Running.at_rest(1, 0.0), 0.01, []
+    tip, step, cut = RunningTips.at_rest(1, 0.0), 0.01, []
     for number in range(1, 400):
         tip = tip.advanced(number * step, np.array([2.0]))
         if tip.way[0] >= 0.5:

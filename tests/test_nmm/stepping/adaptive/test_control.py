@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from nmm.formulation import IntegratorTable
-from nmm.stepping.adaptive.control import Chosen, StepControl
+from nmm.stepping.adaptive.control import StepChoice, StepControl
 
 
 def control(order=2, **keys):
@@ -49,7 +49,7 @@ def test_an_error_that_is_halvings_above_the_bound_is_halved_so_often(order):
 
 
 def test_places_and_speeds_are_shares_of_the_largest():
-    seen = Chosen().seen(2.0, 10.0).seen(1.0, 30.0)
+    seen = StepChoice().seen(2.0, 10.0).seen(1.0, 30.0)
     asked = control(error=0.01)
     assert asked.bound == pytest.approx(1e-3, rel=1e-12)
     assert asked.ratio(seen, 2e-3, 0.0, 1.0) == pytest.approx(1.0, rel=1e-12)
@@ -57,10 +57,10 @@ def test_places_and_speeds_are_shares_of_the_largest():
 
 
 def test_with_order_one_speeds_count_by_what_places_are_off():
-    seen = Chosen().seen(1.0, 1.0)
+    seen = StepChoice().seen(1.0, 1.0)
     assert control(1, error=0.1).ratio(seen, 1e-3, 0.0, 1e-2) == pytest.approx(10.0, rel=1e-12)
 
 
 def test_nothing_that_moves_errs_by_nothing():
-    assert control().ratio(Chosen(), 0.0, 0.0, 1.0) == 0.0
+    assert control().ratio(StepChoice(), 0.0, 0.0, 1.0) == 0.0
     assert np.isfinite(control().after(0.1, 0.0, 0.0))

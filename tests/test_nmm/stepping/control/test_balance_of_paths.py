@@ -159,7 +159,7 @@ def test_loads_that_cancel_and_reactions_of_rounding_are_in_balance() -> None:
     assert run.summary.audits["force_balance"] < 1e-6
 
 
-class Standing:
+class PathState:
     """Where a stepper stands is the sum of what it accepted."""
 
     small, carried, size, anchored, reference = False, "before", 1.0, False, np.ones((1, 2))
@@ -189,7 +189,7 @@ def moved(motion, converged=True):
     ],
 )
 def test_a_step_is_taken_back_where_corrections_find_no_balance(corrections, settles):
-    stepper, tried = Standing(), iter(corrections)
+    stepper, tried = PathState(), iter(corrections)
     attempt, *_ = settled(stepper, moved(1.0), lambda so_far: moved(*next(tried)))
     assert attempt.converged == settles
     assert stepper.carried == ("after" if settles else "before")

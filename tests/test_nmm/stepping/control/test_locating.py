@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from nmm.stepping.control.locating import CLOSE, Tried, located, outward
+from nmm.stepping.control.locating import CLOSE, TriedStep, located, outward
 
 CURVES = {
     "straight": lambda way: np.array([0.3 * way, 0.5 * way]),
@@ -25,7 +25,7 @@ def test_the_first_bond_at_its_limit_is_found_in_few_trials(name, length):
     def trial(way):
         loads = np.maximum(CURVES[name](way), 0.0)
         tried.append(way)
-        return Tried(way, SimpleNamespace(converged=True), loads)
+        return TriedStep(way, SimpleNamespace(converged=True), loads)
 
     found = located(trial, trial(0.0), trial(length))
     assert found.attempt.converged
@@ -42,7 +42,7 @@ def test_the_first_bond_at_its_limit_is_found_in_few_trials(name, length):
 def test_a_trial_without_a_solution_is_told_from_loads_that_do_not_change():
     def trial(way, solved=True, slope=1.0):
         loads = np.array([0.5 + slope * way]) if solved else np.full(1, np.inf)
-        return Tried(way, SimpleNamespace(converged=solved), loads)
+        return TriedStep(way, SimpleNamespace(converged=solved), loads)
 
     still = trial(0.0)
     assert outward(lambda way: trial(way, slope=0.0), still, 1.0) is None
@@ -64,7 +64,7 @@ class Answer:
 
 def test_loads_that_pass_one_by_a_jump_are_no_event_and_are_told():
     def trial(way):
-        return Tried(way, Answer(), np.array([0.9 if way < 1.7 else 1.2]))
+        return TriedStep(way, Answer(), np.array([0.9 if way < 1.7 else 1.2]))
 
     found = located(trial, trial(0.0), trial(3.0))
     assert not found.attempt.converged
@@ -74,8 +74,8 @@ def test_loads_that_pass_one_by_a_jump_are_no_event_and_are_told():
 def test_a_trial_in_between_that_has_no_solution_is_returned_with_its_reason():
     def trial(way):
         if 0.5 < way < 3.5:
-            return Tried(way, Answer(False, "no balance"), np.full(1, np.inf))
-        return Tried(way, Answer(), np.array([0.4 * way]))
+            return TriedStep(way, Answer(False, "no balance"), np.full(1, np.inf))
+        return TriedStep(way, Answer(), np.array([0.4 * way]))
 
     found = located(trial, trial(0.0), trial(4.0))
     assert not found.attempt.converged

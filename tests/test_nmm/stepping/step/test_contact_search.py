@@ -6,7 +6,7 @@ import numpy as np
 
 from nmm.contact.detection.tolerances import CROSSING_SOLUTIONS
 from nmm.stepping.step.clock import Clock
-from nmm.stepping.step.contact_search import ContactSearch, Sought
+from nmm.stepping.step.contact_search import ContactSearch, SoughtContacts
 
 
 def test_a_step_is_solved_again_for_crossings_a_fixed_number_of_times():
@@ -17,7 +17,7 @@ def test_a_step_is_solved_again_for_crossings_a_fixed_number_of_times():
     current = SimpleNamespace(plan=SimpleNamespace(contact=contact))
     search = ContactSearch(current, None, 1.0, Clock())
     statics = SimpleNamespace(step=None, state=None)
-    sought, again = Sought(0.1, None, None, None), 0
+    sought, again = SoughtContacts(0.1, None, None, None), 0
     while (found := search.again(statics, sought, None, None, motion="seen")) is not None:
         sought, again = found, again + 1
         assert sought.crossings == again

@@ -15,7 +15,7 @@ from nmm.errors import NmmError
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
 from nmm.stepping.drive.evidence import evidence
-from nmm.stepping.drive.settling import Settled
+from nmm.stepping.drive.settling import SettledStep
 from nmm.stepping.prepare import prepare
 
 COVERS = {
@@ -385,7 +385,7 @@ def test_an_iterate_far_away_is_no_proof_where_bodies_bend_by_any_angle(update, 
     made = prepare(scene, formulation)
     found = made.stepper.attempt(made.start, Instant(0.0, 0.1), None)
     far = replace(found, converged=False, motion=10 * made.stepper.size)
-    told = evidence(made.stepper, made.start, 0.1, Settled(far, None), ["bar"])
+    told = evidence(made.stepper, made.start, 0.1, SettledStep(far, None), ["bar"])
     assert (told is not None) == shown
 
 
