@@ -47,9 +47,12 @@ def _held(run: EndedRun) -> str:
 
 
 def _what_keeps(run: EndedRun) -> str:
-    """Name what keeps energy where meshes turn as they touch: their forces act as a step begins."""
+    """Name what keeps energy where meshes turn as they touch, by springs: exact forces do not."""
     stepper = run.stepper
-    meshes = stepper.kinematics.turns and stepper.model.manifold.shared_covers
-    if not meshes or stepper.plan.contact is None:
+    meshes, contact = stepper.model.manifold.shared_covers, stepper.plan.contact
+    if not meshes or not stepper.kinematics.turns or contact is None:
         return ""
-    return ', or type = "energy_momentum" with [rotation] update = "finite", which keeps it'
+    springs = 'enforcement = "penalty" and ' if contact.exact else ""
+    return (
+        f', or {springs}type = "energy_momentum" with [rotation] update = "finite", which keeps it'
+    )

@@ -74,8 +74,9 @@ def test_soft_bodies_that_collide_do_not_know_which_is_listed_first(enforcement)
     runs = [collision(text, 10, cover, more) for text in (SCENE, anew)]
     for kind in ENERGIES:
         one, other = (run.history[kind] for run in runs)
-        # Contact is solved to 1e-8 of its forces; sides that differ make 1e-4 of it.
-        assert one == pytest.approx(other, abs=1e-7 * one.max())
+        # Sides that differ make 1e-4 of it. What is left grows from rounding by and by: functions
+        # are dependent, and one solution more or less finds places half way, right to 1e-5.
+        assert one == pytest.approx(other, abs=5e-6 * one.max())
     assert runs[0].history["strain_energy"].max() > 0.1 * runs[0].history["kinetic_energy"][0]
 
 
@@ -102,9 +103,11 @@ def test_what_a_warning_names_keeps_the_energy_of_meshes_that_turn_as_they_touch
     for below, above in (("-0.5]", "0.1]"), (" 0.5]", " 1.1]")):
         aside = aside.replace(below, above)  # the flying square meets the lower part of the other
     cover = 'type = "triangles"\nsize = 0.35\ndegree = 1'
-    gaining = collision(aside, 0, cover)
+    # Exact forces between dependent functions act as a step begins.
+    gaining = collision(aside, 0, cover, '[contact]\nenforcement = "cone"\n')
     (told,) = (one for one in gaining.summary.warnings if "audit energy_made_in_step" in one)
-    assert 'type = "energy_momentum" with [rotation] update = "finite"' in told
+    keeps = '"penalty" and type = "energy_momentum" with [rotation] update = "finite"'
+    assert keeps in told
     finite = '[rotation]\nupdate = "finite"\n'
     keeping = collision(aside, 0, cover, finite, "energy_momentum")
     # What any run may gain without a word: 1e-6 of the turnover.

@@ -1,5 +1,7 @@
 """Rows half way: one compiled pass is what sparse sums and products say."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.sparse import csr_array, diags_array
@@ -77,7 +79,7 @@ def test_one_pass_is_what_sparse_sums_and_products_say(seed):
     contact, model, state = run.stepper.plan.contact, run.stepper.model, run.state
     sides, points = contact.partners.sides, contact.record.known
     draws = np.random.default_rng(seed)
-    frames = with_parts(state.frames, angle=state.frames.angle + 0.1 * draws.normal(size=2))
+    frames = replace(state.frames, angle=state.frames.angle + 0.1 * draws.normal(size=2))
     bent = state.deformation + 1e-3 * draws.normal(size=len(state.deformation))
     half = middle(state, with_parts(state, frames=frames, deformation=bent))
     plain = by_sparse_matrices(points, sides, model, state, half)
