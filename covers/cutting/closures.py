@@ -20,6 +20,7 @@ from covers.cutting.half_edges import walks
 from covers.cutting.resolution import Resolution
 from covers.cutting.snap_rounding import Lines, node
 from integration.arrays import Bools, Floats, Ints
+from integration.plane_vectors import cross
 
 TIP, LEFT, RIGHT, TOUCH = 0, 1, 2, 3
 # A closure that would end this near to a point, in parts of its length, ends in the point.
@@ -153,9 +154,9 @@ def _hits(faces: Faces, rays: _Rays, reach: float) -> tuple[Ints, Ints, Floats, 
     start, end = (faces.steps[side] for side in _ends(faces, edge))
     along, away, direction = end - start, start - begin[ray], unit[ray]
     with np.errstate(divide="ignore", invalid="ignore"):
-        slope = _cross(direction, along)
-        distance = _cross(away, along) / slope
-        share = _cross(away, direction) / slope
+        slope = cross(direction, along)
+        distance = cross(away, along) / slope
+        share = cross(away, direction) / slope
     slack = 1.0 / np.hypot(*along.T)
     with np.errstate(invalid="ignore"):
         hit = (distance > 0) & (distance <= reach) & (share >= -slack) & (share <= 1 + slack)
@@ -175,10 +176,6 @@ def _ends(faces: Faces, edge: Ints) -> tuple[Ints, Ints]:
 def _boxes(corners: Floats) -> Floats:
     low, high = corners.min(axis=1) - 1, corners.max(axis=1) + 1
     return np.asarray(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
-
-
-def _cross(a: Floats, b: Floats) -> Floats:
-    return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
 
 
 def _joined(rays: list[_Rays]) -> _Rays:

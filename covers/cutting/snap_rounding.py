@@ -16,6 +16,7 @@ import shapely
 
 from covers.cutting.resolution import Resolution, clusters
 from integration.arrays import Bools, Floats, Ints
+from integration.plane_vectors import cross
 from integration.ragged import within
 
 NEAR = 0.75
@@ -177,15 +178,11 @@ def _crossings(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Bools, Float
     No end is nearer than `NEAR` to the other segment, so that the signs are certain.
     """
     ab, cd, ac = b - a, d - c, c - a
-    of_c, of_d = _cross(ab, ac), _cross(ab, d - a)
-    of_a, of_b = -_cross(cd, ac), _cross(cd, b - c)
+    of_c, of_d = cross(ab, ac), cross(ab, d - a)
+    of_a, of_b = -cross(cd, ac), cross(cd, b - c)
     crosses = (of_c * of_d < 0) & (of_a * of_b < 0)
     with np.errstate(divide="ignore", invalid="ignore"):
         return crosses, of_a / (of_a - of_b), of_c / (of_c - of_d)
-
-
-def _cross(a: Floats, b: Floats) -> Floats:
-    return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
 
 
 def _split(

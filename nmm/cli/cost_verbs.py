@@ -9,6 +9,7 @@ from nmm.cli.scene_verbs import AllowCode, allowed
 from nmm.cli.study_arguments import (
     FirstFormulations,
     Formulations,
+    Memory,
     Out,
     Quiet,
     SceneFile,
@@ -43,7 +44,7 @@ def cost(
         ),
     ] = None,
     repeats: Annotated[int, typer.Option(min=1, help="Counted repeats of each run.")] = 3,
-    memory: Annotated[bool, typer.Option(help="Measure memory, in processes of their own.")] = True,
+    memory: Memory = True,
     out: Out = None,
     quiet: Quiet = False,
     allow_code: AllowCode = None,

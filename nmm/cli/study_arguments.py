@@ -21,6 +21,8 @@ FirstFormulations = Annotated[
 
 Out = Annotated[Path | None, typer.Option("--out", "-o", help="Folder to write to.")]
 
+Memory = Annotated[bool, typer.Option(help="Measure memory, in processes of their own.")]
+
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print the outcome only.")]
 
 

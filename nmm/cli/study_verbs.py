@@ -9,6 +9,7 @@ from nmm.cli.cost_verbs import calibrate, cost
 from nmm.cli.scene_verbs import AllowCode, allowed
 from nmm.cli.study_arguments import (
     Formulations,
+    Memory,
     Out,
     Quiet,
     SceneFile,
@@ -31,7 +32,7 @@ def compare(
             "--beside", "-b", help="Another scene of the same case, with its own formulation."
         ),
     ] = None,
-    memory: Annotated[bool, typer.Option(help="Measure memory, in processes of their own.")] = True,
+    memory: Memory = True,
     out: Out = None,
     quiet: Quiet = False,
     allow_code: AllowCode = None,

@@ -8,6 +8,7 @@ from scipy.sparse import csr_array
 
 from covers.change.transfer import Transfer, by_body
 from integration.arrays import Floats
+from integration.plane_vectors import cross
 from nmm.assembly.model import Model
 from nmm.assembly.momenta import momenta
 
@@ -59,7 +60,7 @@ class CarriedRates:
         centre = (kin.new.body_centroid + self.shift)[body]
         arm = transfer.points - centre + transfer.old.apply(self.before)
         thick = self.old.thickness if heavy else 1.0
-        return thick * transfer.sums(np.column_stack([fast, _cross(arm, fast)]))
+        return thick * transfer.sums(np.column_stack([fast, cross(arm, fast)]))
 
     def _missing(self, before: Floats, parts: Floats) -> Floats:
         """Share (B, 3) of each part in what parts lack of the momenta ``before`` (A, 3) of one.
@@ -82,13 +83,9 @@ class CarriedRates:
         for axis in (0, 1):
             found[:, axis] = lacking(axis, parts[:, axis])
         arm = kin.new.body_centroid + self.shift - kin.old.body_centroid[main]
-        found[:, 2] = lacking(2, parts[:, 2] + _cross(arm, (parts + found)[:, :2]))
+        found[:, 2] = lacking(2, parts[:, 2] + cross(arm, (parts + found)[:, :2]))
         return found
 
     @cached_property
     def _rows(self) -> csr_array:
         return momenta(self.new, self.after)
-
-
-def _cross(arm: Floats, way: Floats) -> Floats:
-    return np.asarray(arm[:, 0] * way[:, 1] - arm[:, 1] * way[:, 0])

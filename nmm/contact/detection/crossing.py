@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
+from integration.plane_vectors import cross
 from integration.ragged import within
-from nmm.contact.detection.measures import cross
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import ANGLE, CROSSED_FIRST, FLUSH
 

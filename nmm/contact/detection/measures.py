@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from integration.plane_vectors import cross, dot
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import ANGLE, DEPTH, EDGE_END, FLUSH, RANKED, Rules
 
@@ -26,16 +27,6 @@ def measure(surface: Surface, v: Ints, e: Ints) -> tuple[Floats, Floats]:
     first = dot(from_start, t) <= 0.5 * length
     offset = np.where(first[:, None], from_start, from_end)
     return dot(offset, t) + np.where(first, 0.0, length), -cross(t, offset)
-
-
-def dot(a: Floats, b: Floats) -> Floats:
-    """Scalar products (m,) of plane vectors."""
-    return np.asarray(a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1])
-
-
-def cross(a: Floats, b: Floats) -> Floats:
-    """Turn (m,) of b against a: their product and the sine of the angle between them."""
-    return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
 
 
 def thinner(surface: Surface, one: Ints, other: Ints) -> Floats:

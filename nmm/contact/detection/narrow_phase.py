@@ -36,7 +36,8 @@ from typing import Self, TypeVar
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.contact.detection.measures import dot, flush_distance, measure, rules_of
+from integration.plane_vectors import dot
+from nmm.contact.detection.measures import flush_distance, measure, rules_of
 from nmm.contact.detection.pair_keys import pair_key
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import FACING, Rules

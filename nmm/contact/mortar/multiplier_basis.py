@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.contact.detection.measures import dot
+from integration.plane_vectors import dot
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import ENOUGH_NODES, RUN_APART, SAME_COMPLIANCE
 from nmm.contact.mortar.trace_space import TraceSpace

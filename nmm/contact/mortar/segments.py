@@ -17,9 +17,10 @@ import numpy as np
 
 from covers.approximation.manifold import Manifold
 from integration.arrays import Bools, Floats, Ints
+from integration.plane_vectors import dot
 from nmm.contact.detection.face_contacts import FaceContacts
 from nmm.contact.detection.joints import between, interval
-from nmm.contact.detection.measures import dot, rules_of
+from nmm.contact.detection.measures import rules_of
 from nmm.contact.detection.narrow_phase import FACE, VERTEX_EDGE, VERTEX_VERTEX, Contacts, joined
 from nmm.contact.detection.pair_keys import pair_key, unordered_key
 from nmm.contact.detection.surface import Surface

@@ -5,6 +5,7 @@ from functools import cached_property
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
+from integration.plane_vectors import cross
 from nmm.assembly.model import Model
 from nmm.assembly.momenta import rigid_masses
 from nmm.assembly.motion import State, middle
@@ -133,8 +134,8 @@ class Momentum:
         way, known = after.centre - before.centre, whole.motion.reshape(-1, 3)[:, :2]
         lacking, force = (before.to_global(every, one[:, :2]) for one in (left, acted))
         acting = whole.acting(solved.answer.normal_force, solved.answer.shear_force)
-        acting += _cross(before.to_global(every, known) - way, force) / 2
-        turned = left[:, 2] + acted[:, 2] - acting - _cross(way, lacking) / 2
+        acting += cross(before.to_global(every, known) - way, force) / 2
+        turned = left[:, 2] + acted[:, 2] - acting - cross(way, lacking) / 2
         return np.column_stack([after.to_body(every, lacking), turned]).ravel()
 
     @property
@@ -176,8 +177,3 @@ def _motion(one: State, other: State) -> tuple[Floats, Floats]:
     """Rotation (B,) in rad and way of the centre (B,) in m of bodies between two states."""
     way = other.frames.centre - one.frames.centre
     return np.abs(other.frames.angle - one.frames.angle), np.hypot(way[:, 0], way[:, 1])
-
-
-def _cross(one: Floats, other: Floats) -> Floats:
-    """Products (m,) of vectors (m, 2)."""
-    return np.asarray(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0])

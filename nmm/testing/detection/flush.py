@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.contact.detection.measures import cross, dot, flush_distance, thinner
+from integration.plane_vectors import cross, dot
+from nmm.contact.detection.measures import flush_distance, thinner
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import MERGED_BODIES, Rules
 

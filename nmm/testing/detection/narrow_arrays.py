@@ -11,9 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
+from integration.plane_vectors import cross, dot
 from nmm.contact.detection.measures import (
-    cross,
-    dot,
     flush_distance,
     measure,
     rules_of,

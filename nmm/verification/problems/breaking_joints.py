@@ -42,17 +42,12 @@ class PullOff(SceneCase):
 
     def scene(self) -> str:
         """Return a square bonded to a held one and pulled at a point of its top."""
-        law = {"cohesion": 10 * self.strength, "tensile_strength": self.strength, "bonded": True}
         return text.scene(
             'title = "Pull-off"\nplane = "stress"\n[contact]\n[loading]\nuntil = "failure"\n'
             f'[formulation.contact]\nbonds = "spring"\njoint_points = "{self.points}"\n'
             "[formulation.loading]\nincrement = 0.1\ntolerance = 1e-4\n",
             [
-                text.material("rock", modulus=1e11, poisson=0.0, density=None),
-                text.interface("bond", 30.0, more=law),
-                text.block("lower", "rock", text.rectangle((0, -1), (1, 0))),
-                text.block("upper", "rock", text.rectangle((0, 0), (1, 1))),
-                text.held("lower"),
+                *_bonded_squares(self.strength, modulus=1e11, density=None),
                 '[[loads]]\nname = "pull"\nkind = "point"\n'
                 f"point = [{0.5 + self.eccentricity!r}, 1]\nforce = [0, {self.strength!r}]\n",
             ],
@@ -79,16 +74,11 @@ class BrittleDrop(SceneCase):
 
     def scene(self) -> str:
         """Return a bonded block of 1 m pulled ever harder, in time."""
-        law = {"cohesion": 10 * self.strength, "tensile_strength": self.strength, "bonded": True}
         return text.scene(
             'title = "Brittle drop"\nplane = "stress"\nduration = 0.01\n[contact]\n[inertia]\n'
             '[formulation.integrator]\nstep = 2e-5\n[formulation.contact]\nbonds = "spring"\n',
             [
-                text.material("rock", modulus=1e9, poisson=0.0, density=1000.0),
-                text.interface("bond", 30.0, more=law),
-                text.block("lower", "rock", text.rectangle((0, -1), (1, 0))),
-                text.block("upper", "rock", text.rectangle((0, 0), (1, 1))),
-                text.held("lower"),
+                *_bonded_squares(self.strength, modulus=1e9, density=1000.0),
                 '[[loads]]\nname = "pull"\nkind = "edge"\nsegment = [[0, 1], [1, 1]]\n'
                 f"traction = [0, {2 * self.strength!r}]\nhistory = [[0, 0], [0.01, 1]]\n",
             ],
@@ -115,3 +105,15 @@ class BrittleDrop(SceneCase):
                 "F^2 / (2 k) at 1e6 N, exceeded by the rise of the force in a step",
             ),
         }
+
+
+def _bonded_squares(strength: float, modulus: float, density: float | None) -> list[str]:
+    """Return a square of 1 m on a held one, bonded by a tensile strength (Pa)."""
+    law = {"cohesion": 10 * strength, "tensile_strength": strength, "bonded": True}
+    return [
+        text.material("rock", modulus=modulus, poisson=0.0, density=density),
+        text.interface("bond", 30.0, more=law),
+        text.block("lower", "rock", text.rectangle((0, -1), (1, 0))),
+        text.block("upper", "rock", text.rectangle((0, 0), (1, 1))),
+        text.held("lower"),
+    ]

@@ -27,6 +27,7 @@ from scipy.sparse import csr_array
 from covers.approximation.rows import row_matrix
 from integration.arrays import Floats
 from integration.contraction import contract
+from integration.plane_vectors import cross
 from nmm.assembly.motion import Frames, MaterialPoints, State
 from nmm.contact.points.bent_faces import Line, face_lines
 from nmm.contact.points.between_faces import EdgeShares, across
@@ -161,7 +162,7 @@ class _Turning:
         half = point.rows.apply(self.half.deformation)
         grown = 2 * (half - point.rows.apply(self.start.deformation))
         arm = chord[:, None] * (point.arm + half) - bent[:, None] * point.arm
-        turned = arm[:, 0] * now[:, 1] - arm[:, 1] * now[:, 0]
+        turned = cross(arm, now)
         turned -= turn * chord / 4 * contract("ij,ij->i", grown, now)
         return np.column_stack([back - bent[:, None] * now, turned])
 
@@ -172,6 +173,6 @@ class _Turning:
         for point, slope in parts:
             places = (point.place(state.frames, state.deformation) for state in ends)
             arm = sum(places) / 2 - centre[point.body]
-            found.append(arm[:, 0] * slope[:, 1] - arm[:, 1] * slope[:, 0])
+            found.append(cross(arm, slope))
         bodies = np.column_stack([point.body for point, _ in parts])
         return row_matrix(bodies, np.column_stack(found), len(centre), merged=True)
