@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from nmm.testing.controls import check_control as check_control
     from nmm.testing.covers import check_cover as check_cover
     from nmm.testing.criteria import check_criterion as check_criterion
-    from nmm.testing.effects import check_effect as check_effect
-    from nmm.testing.effects import check_effect_of as check_effect_of
+    from nmm.testing.effects.promises import check_effect as check_effect
+    from nmm.testing.effects.promises import check_effect_of as check_effect_of
     from nmm.testing.enforcements import check_enforcement as check_enforcement
     from nmm.testing.enforcements import check_smooth_enforcement as check_smooth_enforcement
     from nmm.testing.impositions import check_imposition as check_imposition
@@ -31,8 +31,8 @@ _HOME = {
     "check_control": "controls",
     "check_cover": "covers",
     "check_criterion": "criteria",
-    "check_effect": "effects",
-    "check_effect_of": "effects",
+    "check_effect": "effects.promises",
+    "check_effect_of": "effects.promises",
     "check_enforcement": "enforcements",
     "check_imposition": "impositions",
     "check_integrator": "integrators",

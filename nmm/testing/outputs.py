@@ -10,7 +10,7 @@ from nmm.outputs.base import Output, View
 from nmm.quantity import Quantity
 from nmm.results.frame import Frame
 from nmm.testing.claims import claim, finite
-from nmm.testing.effects import check_quantity
+from nmm.testing.effects.promises import check_quantity
 
 if TYPE_CHECKING:
     from nmm.scene import Scene

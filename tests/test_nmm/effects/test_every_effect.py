@@ -7,9 +7,10 @@ import pytest
 import nmm
 from nmm.formulation import Formulation
 from nmm.scene import build_scene
-from nmm.testing import check_effect_of
+from nmm.stepping.prepare import prepare
+from nmm.testing import check_effect, check_effect_of
 from nmm.testing.outputs import TWO_BLOCKS
-from nmm.verification.hard.spoilt.mutations import sound_files
+from nmm.verification.hard.spoilt.mutations import bases, sound_files
 
 LOADS = """
 [[loads]]
@@ -52,21 +53,16 @@ def test_glue_of_sub_blocks_keeps_what_every_effect_promises():
     check_effect_of(nmm.parse_scene(text), "artificial joints")
 
 
-# Effects that scenes of many tables name, each with the scene that it is checked in.
-IN_SCENES = [
-    ("dynamic", "initial velocity"),
-    ("dynamic", "contact"),
-    ("growing", "fracture"),
-    ("members", "inertia"),
-    ("members", "dashpots"),
-    ("rolled over", "moving loads"),
-    ("shaken", "damping against the ground"),
-    ("splitting", "splitting"),
-    ("zones", "cohesive zones"),
-]
-
-
-@pytest.mark.parametrize(("scene", "name"), IN_SCENES)
-def test_an_effect_of_a_whole_scene_keeps_what_every_one_promises(scene, name):
+@pytest.mark.parametrize("scene", bases()[:-1])
+def test_effects_of_a_whole_scene_keep_what_every_one_promises(scene):
     made = build_scene(tomllib.loads(sound_files()[scene][1]), scene)
-    check_effect_of(made, name, made.formulation or Formulation())
+    prepared = prepare(made, made.formulation or Formulation())
+    assert prepared.stepper.plan.effects
+    for effect in prepared.stepper.plan.effects.values():
+        check_effect(effect, prepared.stepper.model, prepared.start)
+
+
+@pytest.mark.parametrize("name", ["prestressed_joint/joint", "seed_cases/reinforced/crack"])
+def test_bars_of_examples_keep_what_every_effect_promises(name):
+    made = build_scene(tomllib.loads(sound_files()[name][1]), name)
+    check_effect_of(made, "bars", made.formulation)

@@ -324,10 +324,40 @@ class Forgetful(Lever):
         self.share = 0.5
 
 
+class Cable(Lever):
+    """A spring that pulls alone, slack or not as it was laid."""
+
+    limited = True
+    pays = 1.0
+
+    def force(self, state, end):
+        return -1e3 * np.maximum(state.deformation, 0.0)
+
+    def energy(self, state):
+        return self.pays * 5e2 * float(np.sum(np.maximum(state.deformation, 0.0) ** 2))
+
+
+class Wasteful(Cable):
+    """A cable that hides what it takes."""
+
+    pays = 0.98
+
+
+class Sponge(Lever):
+    """A force that follows the motion the more, the longer the step; its matrix knows no step."""
+
+    steady = False
+
+    def force(self, state, end):
+        return super().force(state, end) * (1 + (end.time - state.time))
+
+
 EFFECTS = {
     "differs after carry(carried())": Forgetful,
     "work less the gain of energy": Idle,
+    "and the loss over the mean force": Wasteful,
     "change of the force with the motion": Softer,
+    "motion against the matrix": Sponge,
     "off from symmetric": Asymmetric,
     "7 rows, expected 2 on elements": Misplaced,
 }
@@ -339,8 +369,9 @@ def built(kind):
     return kind(model, np.array([0.0, -9.81])), model, made.start
 
 
-def test_the_right_spring_is_not_told():
-    check_effect(*built(Lever))
+@pytest.mark.parametrize("right", [Lever, Cable])
+def test_a_right_spring_is_not_told(right):
+    check_effect(*built(right))
 
 
 @pytest.mark.parametrize("words", EFFECTS)

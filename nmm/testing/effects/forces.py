@@ -1,0 +1,155 @@
+"""How force, matrix, work, energy and loss of an effect fit each other.
+
+Forces are finite, one for each unknown, and the same when asked again. What an effect gives in a
+small motion, its work less what it stores more and takes, is its mean force times the way. The
+matrix is symmetric, and less the change of the force with the motion (by central differences); of
+a force that depends on the length of the step, in one of `STEP`.
+
+Forces with limits have kinks: members that go slack, yield or slide. Motions of these, and of
+members that turn, are made of `PIECES`, and a matrix is compared where its force meets no kink.
+"""
+
+from itertools import pairwise
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State, strain_only
+from nmm.effects.base import Effect, Instant, defines
+from nmm.frozen import with_parts
+from nmm.testing.claims import claim, close, finite
+
+# Motions, in sizes of the model, at which forces and energies are compared.
+WAYS = (1e-6, 1e-4)
+# Of what is linear in the motion, or quadratic: rounding over the smallest motion.
+LINEAR, ENERGY = 1e-6, 1e-6
+# Pieces of a motion beyond limits, and what kinks within them cost: of the order of 1 / PIECES^2.
+PIECES, KINKED = 64, 1e-3
+# Length of the step (in units of the run's time) in which a force is asked for that needs one.
+STEP = 0.1
+
+
+def check_forces(effect: Effect, name: str, model: Model, state: State, seed: int) -> None:
+    """Hold an effect to what its force, matrix, work, energy and loss owe each other.
+
+    Raises
+    ------
+    AssertionError
+        Naming the property that is not kept, by how much, and what was tolerated.
+    """
+    ways = _ways(model, seed)
+    if defines(effect, "force"):
+        _force(effect, name, state, model.manifold.n_unknowns)
+        claim(
+            any(defines(effect, one) for one in ("work", "energy", "loss")),
+            f"{name}: its force does work that it does not declare: define work, energy or loss",
+        )
+        for way in ways:
+            _work(effect, name, model, _at_rest(state), way)
+    if defines(effect, "matrix"):
+        _matrix(effect, name, model, state, ways)
+    for hook in ("damping", "added_mass"):
+        if defines(effect, hook):
+            _resistance(name, hook, getattr(effect, hook)(state), ways)
+
+
+def _ways(model: Model, seed: int) -> list[Floats]:
+    """Motions (n,) of the unknowns whose places move by `WAYS` of the model's size."""
+    manifold, random = model.manifold, np.random.default_rng(seed)
+    points = manifold.elements.points
+    rows = manifold.rows(manifold.elements.polygon_of_point, points)
+    size = float(np.ptp(points, axis=0).max())
+    way = random.normal(size=manifold.n_unknowns)
+    moved = float(np.abs(rows.apply(way)).max())
+    return [share * size / moved * way for share in WAYS]
+
+
+def _at_rest(state: State) -> State:
+    """Return the state without spin, whose centrifugal force is the inertia of axes that turn."""
+    return with_parts(state, velocity=np.zeros_like(state.velocity))
+
+
+def _force(effect: Effect, name: str, state: State, n: int) -> None:
+    force = np.asarray(effect.force(state, Instant.of(state)))
+    claim(force.shape == (n,), f"{name}: force of shape {force.shape}, expected {(n,)}")
+    finite(f"{name}: force", force)
+    again = effect.force(state, Instant.of(state))
+    claim(np.array_equal(force, again), f"{name}: the force differs when it is asked for again")
+
+
+def _work(effect: Effect, name: str, model: Model, state: State, way: Floats) -> None:
+    """Compare what the effect gives on a way with its mean force times it."""
+    bends = effect.limited or (defines(effect, "through") and effect.bends)
+    shares = np.linspace(0, 1, PIECES + 1) if bends else np.array([-0.5, 0.5])
+    places = [strain_only(model, state, share * way) for share in shares]
+    given = expected = size = 0.0
+    for before, after in pairwise(places):
+        mean = (_now(effect, before) + _now(effect, after)) / 2
+        part = way * (shares[1] - shares[0])
+        expected += float(mean @ part)
+        given += _given(effect, before, after)
+        size += float(np.abs(mean) @ np.abs(part))
+    stored = effect.energy(places[-1]) if defines(effect, "energy") else 0.0
+    unit = size + 1e-3 * abs(stored) or 1.0
+    what = f"{name}: work less the gain of energy and the loss over the mean force times the way"
+    close(what, given / unit, expected / unit, KINKED if effect.limited else ENERGY)
+
+
+def _now(effect: Effect, state: State) -> Floats:
+    return effect.force(state, Instant.of(state))
+
+
+def _given(effect: Effect, before: State, after: State) -> float:
+    """Work (J) less what is stored more and lost."""
+    given = 0.0
+    if defines(effect, "work"):
+        given += effect.work(before, after)
+    if defines(effect, "energy"):
+        given -= effect.energy(after) - effect.energy(before)
+    if defines(effect, "loss"):
+        given -= effect.loss(before, after)
+    return given
+
+
+def _matrix(effect: Effect, name: str, model: Model, state: State, ways: list[Floats]) -> None:
+    end = Instant.of(state)
+    if not effect.steady:
+        end = Instant(state.time + STEP, state.load_factor)
+    here = effect.force(state, end) if defines(effect, "force") else None
+    matrix, n = effect.matrix(state), model.manifold.n_unknowns
+    claim(matrix.shape == (n, n), f"{name}: matrix of shape {matrix.shape}, expected {(n, n)}")
+    finite(f"{name}: matrix", matrix.data)
+    _symmetric(f"{name}: matrix", matrix)
+    if here is None:
+        return
+    for way in ways:
+        change = {
+            share: effect.force(strain_only(model, state, share * way), end) - here
+            for share in (-0.5, -0.25, 0.25, 0.5)
+        }
+        expected = -(matrix @ way)
+        unit = float(np.abs(expected).max()) or 1.0
+        off = (np.abs(one - 2 * share * change[0.5]).max() for share, one in change.items())
+        if effect.limited and max(off) > KINKED * unit:
+            continue
+        what = f"{name}: change of the force with the motion against the matrix"
+        close(what, (change[0.5] - change[-0.5]) / unit, expected / unit, LINEAR)
+
+
+def _resistance(name: str, hook: str, matrix: csc_array, ways: list[Floats]) -> None:
+    """Dampers take energy at any velocity; what joins the mass is symmetric as they are."""
+    finite(f"{name}: {hook}", matrix.data)
+    size = _symmetric(f"{name}: {hook}", matrix)
+    for way in ways if hook == "damping" else ():
+        taken, most = float(way @ (matrix @ way)), size * float(way @ way)
+        claim(taken >= -1e-12 * most, f"{name}: damping gives {-taken:.3g} W, it may only take")
+
+
+def _symmetric(what: str, matrix: csc_array) -> float:
+    """Claim that a matrix is symmetric, and return its size."""
+    size = float(abs(matrix).max()) if matrix.nnz else 0.0
+    off = float(abs(matrix - matrix.T).max()) if matrix.nnz else 0.0
+    claim(off <= 1e-12 * size, f"{what} off from symmetric by {off:.3g} of {size:.3g}")
+    return size
