@@ -116,20 +116,22 @@ class Interaction:
 
     def over_elements(self) -> Iterator[tuple[InteractionWeights, Pulled]]:
         """Yield what counts over the material."""
-        near, point = self._elements, self.fields.tip.point
+        near = self._elements
         polygons = self.model.manifold.elements.take(near)
         middle = polygons.centroids
         out = np.hypot(*(polygons.points - middle[polygons.polygon_of_point]).T)
         size = np.maximum.reduceat(out, polygons.first_point)
-        close = np.hypot(*(middle - point).T) < BESIDE * size
-        # About the tip fields are singular; further out the cut-off is what is not polynomial.
+        # About tips fields are singular; further out the cut-off is what is not polynomial.
+        tips = self.model.cut.tips.point
+        nearest, away = _nearest(tips, middle)
+        close = away < BESIDE * size
         for chosen, singular in ((close, True), (~close, False)):
             index = np.flatnonzero(chosen)
             if not len(index):
                 continue
             part = polygons.take(index)
             rule = (
-                tip_rule(part, point, SMOOTH_ORDER)
+                tip_rule(part, tips[nearest[index]], SMOOTH_ORDER)
                 if singular
                 else polygon_rule(part, SMOOTH_ORDER)
             )
@@ -172,12 +174,12 @@ class Interaction:
             np.flatnonzero(near & bent & part) for part in (edges.crack >= 0, edges.crack < 0)
         )
         if traction is not None:
-            for chosen, rule in ((behind, self._graded), (kinked, self._even)):
-                if len(chosen):
-                    yield self._pushed(chosen, *rule(chosen), traction)
-        for chosen, held in ((kinked, False), (rim, True)):
-            if len(chosen):
-                yield self._along(chosen, *self._even(chosen), held)
+            for part in self._graded(np.concatenate([behind, kinked])):
+                yield self._pushed(*part, traction)
+        for part in self._graded(kinked):
+            yield self._along(*part, held=False)
+        if len(rim):
+            yield self._along(rim, *self._even(rim), held=True)
 
     def pushed(self, pushes: Pushes) -> Floats:
         """Part (2,) of forces in the axes of the body, within it and on faces of cracks (N/m)."""
@@ -193,12 +195,18 @@ class Interaction:
         force = weights.reshape(-1, 1) * np.repeat(found.force, q, axis=0)
         return self._of_forces(np.repeat(found.element, q), points.reshape(-1, 2), force)
 
-    def _graded(self, edges: Ints) -> tuple[Floats, Floats]:
-        """Rule for edges behind the tip: in ``sqrt(r)`` the integrand is smooth."""
-        boundary = self.model.cut.boundary
-        return graded_rule(
-            boundary.start[edges], boundary.end[edges], self.fields.tip.point, SMOOTH_ORDER
-        )
+    def _graded(self, edges: Ints) -> Iterator[tuple[Ints, Floats, Floats]]:
+        """Yield edges of cracks with their rule: smooth in the root of the way from a tip."""
+        boundary, tips = self.model.cut.boundary, self.model.cut.tips
+        start, end = boundary.start[edges], boundary.end[edges]
+        nearest, _ = _nearest(tips.point, (start + end) / 2)
+        about, ahead = tips.point[nearest], tips.direction[nearest]
+        straight = ~off_line(start, end, about, ahead, STRAIGHT)
+        if straight.any():
+            ends = start[straight], end[straight], about[straight]
+            yield edges[straight], *graded_rule(*ends, SMOOTH_ORDER)
+        if not straight.all():
+            yield edges[~straight], *self._even(edges[~straight])
 
     def _even(self, edges: Ints) -> tuple[Floats, Floats]:
         boundary = self.model.cut.boundary
@@ -260,6 +268,12 @@ class Interaction:
     def _auxiliary(self, owner: Ints, points: Floats) -> Floats:
         """Gradients (2, m, 2, 2) of both modes at points of elements (m,)."""
         return np.swapaxes(self.fields.gradients(points, self._branch[owner]), 0, 1)
+
+
+def _nearest(points: Floats, places: Floats) -> tuple[Ints, Floats]:
+    """Number (n,) of the nearest of some points (k, 2) to each place (n, 2), and how far it is."""
+    away = np.hypot(*(places[:, None] - points).transpose(2, 0, 1))
+    return away.argmin(axis=1), away.min(axis=1)
 
 
 def _outer(a: Floats, b: Floats) -> Floats:

@@ -11,8 +11,8 @@ Moran and Shih 1987; Shih and Asaro 1988)
 auxiliary displacement ``v``, ``t`` the traction on the faces, ``m`` their normal out of the
 material. Where a crack is kinked or curved the angle of ``v`` jumps across the crack itself, so
 that ``v`` leaves tractions there, which the last two terms take out; straight behind the tip they
-vanish. With them a domain may hold kinks, other cracks and parts of the boundary: all but other
-tips. In motion ``b`` is less by density times acceleration.
+vanish. With them a domain may hold kinks, other cracks with their tips and parts of the boundary:
+all but the whole of its own crack. In motion ``b`` is less by density times acceleration.
 """
 
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ from nmm.assembly.model import Model
 from nmm.errors import NmmError
 from nmm.fracture.intensity_rows import IntensityRows
 from nmm.fracture.interaction import Field, Traction
-from nmm.fracture.surroundings import nearest_tip
+from nmm.fracture.surroundings import farthest_face
 
 # Part of its radius by which a domain may touch what it must not hold.
 NEAR = 1e-9
@@ -71,7 +71,7 @@ def stress_intensity(
     tip
         Number among ``model.cut.tips``.
     radius
-        Of the domain (m), up to other tips; best short of the boundary and of other cracks.
+        Of the domain (m), up to the far end of the crack; best short of the boundary and of others.
     kappa
         Kolosov's constant (`nmm.materials.base.Law.kolosov`).
     body_force, face_traction
@@ -84,8 +84,8 @@ def stress_intensity(
     Raises
     ------
     NmmError
-        A tip that does not exist; a domain that holds another tip, whose integral would be that
-        of both.
+        A tip that does not exist; a domain that holds the whole crack, about which no angle is
+        continuous.
     """
     count = len(model.cut.tips)
     if not 0 <= tip < count:
@@ -106,18 +106,18 @@ def stress_intensity(
 
 
 def check_domain(cut: CutCells, tip: int, radius: float) -> None:
-    """Refuse a domain that holds another tip.
+    """Refuse a domain that holds the whole of its crack.
 
     Raises
     ------
     NmmError
         See `stress_intensity`.
     """
-    away = nearest_tip(cut, tip)
+    away = farthest_face(cut, tip)
     if not 0 < radius <= away * (1 + NEAR):
         x, y = cut.tips.point[tip]
         raise NmmError(
-            f"crack tip {tip} at [{x:.6g}, {y:.6g}]: radius {radius:.6g}: another tip is "
-            f"{away:.6g} m away: expected a domain of one tip: use a radius above 0 and up to "
-            f"{away:.6g}, several cells of the cover"
+            f"crack tip {tip} at [{x:.6g}, {y:.6g}]: radius {radius:.6g}: the crack reaches "
+            f"{away:.6g} m from it: expected a domain that does not hold all of it: use a radius "
+            f"above 0 and up to {away:.6g}, several cells of the cover"
         )

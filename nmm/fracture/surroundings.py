@@ -2,23 +2,32 @@
 
 import numpy as np
 
+from covers.cutting.components import components, unique_rows
 from covers.cutting.cut_cells import CutCells
 from integration.arrays import Bools, Floats
 
 # Faces off the line behind the tip by more than this part of their distance are bent.
 BENT = 0.02
-# Part of the distance of another tip that a domain may fill.
-ALONE = 0.95
+# Part of what reaches farthest of the crack about a tip that a domain may hold.
+OPEN = 0.95
 
 
-def nearest_tip(cut: CutCells, tip: int) -> float:
-    """Return the distance of the nearest other tip (m); infinite without one."""
-    others = np.delete(cut.tips.point, tip, axis=0)
-    return float(np.hypot(*(others - cut.tips.point[tip]).T).min(initial=np.inf))
+def farthest_face(cut: CutCells, tip: int) -> float:
+    """Return how far what is open about a tip reaches (m): its crack, with all that joins it.
+
+    A domain that held all of it would close about it, and no angle about the tip is continuous
+    there.
+    """
+    edges = cut.boundary
+    vertex = unique_rows(np.concatenate([edges.start, edges.end]))[1]
+    start, end = vertex.reshape(2, -1)
+    part = components(int(vertex.max(initial=-1)) + 1, start, end)
+    away = np.hypot(*(edges.start - cut.tips.point[tip]).T)
+    return float(away[part[start] == part[start[away.argmin()]]].max())
 
 
 def domain_radius(cut: CutCells, tip: int, wanted: float) -> float:
-    """Return the radius of a domain about a tip: as wanted, but short of other tips (m).
+    """Return the radius of a domain about a tip: as wanted, but short of closing about it (m).
 
     It keeps clear of the boundary and of other cracks as long as half of what is wanted is left.
     """
@@ -28,7 +37,7 @@ def domain_radius(cut: CutCells, tip: int, wanted: float) -> float:
     others &= edges.crack != cut.tips.crack[tip]
     gap = _distances(point, edges.start[others], edges.end[others])
     clear = float(gap.min(initial=np.inf))
-    return min(max(min(wanted, clear), wanted / 2), ALONE * nearest_tip(cut, tip))
+    return min(max(min(wanted, clear), wanted / 2), OPEN * farthest_face(cut, tip))
 
 
 def _distances(point: Floats, start: Floats, end: Floats) -> Floats:
@@ -40,14 +49,14 @@ def _distances(point: Floats, start: Floats, end: Floats) -> Floats:
 
 
 def off_line(start: Floats, end: Floats, point: Floats, ahead: Floats, share: float) -> Bools:
-    """Segments (n,) with an end that lies off the line behind a tip, or ahead of it.
+    """Segments (n,) with an end that lies off the line behind a tip (2,), or their own tips (n, 2).
 
-    Off is what lies aside by more than a ``share`` of its distance.
+    Off is what lies aside by more than a ``share`` of its distance, or ahead of it.
     """
     off = np.zeros(len(start), dtype=bool)
     for place in (start - point, end - point):
-        along = place @ ahead
-        across = np.abs(place[:, 0] * ahead[1] - place[:, 1] * ahead[0])
+        along = (place * ahead).sum(axis=1)
+        across = np.abs(place[:, 0] * ahead[..., 1] - place[:, 1] * ahead[..., 0])
         reach = share * np.hypot(*place.T)
         off |= (across > reach) | (along > reach)
     return off

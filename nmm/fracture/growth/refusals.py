@@ -44,7 +44,7 @@ def refuse(setup: Setup, tips: Ints) -> None:
     size = setup.formulation.cover.finest
     if table is not None and table.radius is not None and size and table.radius < size:
         value, expected = f"{table.radius:g} m", f"at least a cell of the cover, {size:g} m"
-        remedy = "leave it out: four cells are taken, less where another tip is near"
+        remedy = "leave it out: four cells are taken, less where the crack is shorter"
         raise SceneError(Fault(scene.source.place("fracture", "radius"), value, expected, remedy))
     if table is not None and table.control == "toughness" and update not in ("auto", "small"):
         place = setup.formulation.source.place("rotation", "update")
