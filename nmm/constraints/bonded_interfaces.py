@@ -85,9 +85,9 @@ class BondedInterfaces(TiedInterfaces):
         """See `Effect.energy`."""
         return super().energy(state) - self._laid_energy(state)
 
-    def felt_energy(self, state: State) -> float:
-        """See `Effect.felt_energy`: of stress that springs carry as they are drawn, too."""
-        return super().felt_energy(state) + self._laid_energy(state)
+    def received_stress_energy(self, state: State) -> float:
+        """See `Effect.received_stress_energy`; with the initial stress that springs carry."""
+        return super().received_stress_energy(state) + self._laid_energy(state)
 
     def _laid_energy(self, state: State) -> float:
         """The part (J) of the energy of springs that is linear in the way from where they lay."""

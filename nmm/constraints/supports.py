@@ -103,7 +103,7 @@ class Supports(TiedInterfaces):
         scene = change.setup.scene.model_copy(update={"supports": tuple(tables)})
         setup = replace(change.setup, scene=scene)
         gone = self.follow(replace(change, setup=setup))
-        gone.feel(stresses)
+        gone.receive_stresses(stresses)
         return gone._standing(change.state, self)
 
     def _standing(self, state: State, before: "Supports") -> list[Reactions]:

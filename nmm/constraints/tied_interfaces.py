@@ -68,8 +68,8 @@ class TiedInterfaces(Effect):
         return ", ".join(said)
 
     @property
-    def with_axes(self) -> str:
-        """See `Effect.with_axes`."""
+    def turns_with_bodies(self) -> str:
+        """See `Effect.turns_with_bodies`."""
         oriented = any(tie.oriented for tie in self.ties)
         return "springs that are unlike along an interface and across" if oriented else ""
 
@@ -102,12 +102,12 @@ class TiedInterfaces(Effect):
         return total
 
     @property
-    def bends(self) -> bool:
-        """See `Effect.bends`: where bodies turn."""
+    def nonlinear(self) -> bool:
+        """See `Effect.nonlinear`: where bodies turn."""
         return self._model is not None
 
-    def through(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.through`: forces at both ends of the step, where bodies are half way.
+    def step_force(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.step_force`: forces at both ends of the step, where bodies are half way.
 
         There these keep angular momentum of two bodies that are tied.
         """
@@ -128,10 +128,10 @@ class TiedInterfaces(Effect):
 
         return StepForce(turned.T @ total, stiffness, rounding=rounding)
 
-    def off_line(self, before: State, after: State, increment: Floats, span: Span) -> float:
-        """See `Effect.off_line`."""
+    def work_correction(self, before: State, after: State, increment: Floats, span: Span) -> float:
+        """See `Effect.work_correction`."""
         now, end = Instant.of(before), Instant.of(after)
-        rise = self.through(before, after, replace(span, weight=1.0)).force
+        rise = self.step_force(before, after, replace(span, weight=1.0)).force
         total = -float((rise - self.force(before, now)) @ increment)
         pairs = zip(self.ties, self._pulls(before, now), self._pulls(after, end), strict=True)
         for tie, (first, some), (last, more) in pairs:
@@ -151,8 +151,8 @@ class TiedInterfaces(Effect):
             found.append((pull, beside))
         return found
 
-    def feel(self, stresses: Sequence[StressAt]) -> None:
-        """See `Effect.feel`."""
+    def receive_stresses(self, stresses: Sequence[StressAt]) -> None:
+        """See `Effect.receive_stresses`."""
         self._stresses = stresses
 
     def _added(self, tie: Imposition, state: State, end: Instant) -> Floats:
@@ -196,10 +196,12 @@ class TiedInterfaces(Effect):
     def energy(self, state: State) -> float:
         """Energy (J) stored in ``state``, with places of its own instant."""
         pairs = self._each(state, Instant.of(state))
-        return sum(tie.energy(state, jump) for tie, jump in pairs) + self.felt_energy(state)
+        return sum(tie.energy(state, jump) for tie, jump in pairs) + self.received_stress_energy(
+            state
+        )
 
-    def felt_energy(self, state: State) -> float:
-        """See `Effect.felt_energy`: minus the tractions of these stresses times the jumps."""
+    def received_stress_energy(self, state: State) -> float:
+        """See `Effect.received_stress_energy`: minus their tractions times the jumps."""
         return -self._felt(state, Instant.of(state)) if self._stresses else 0.0
 
     def work(self, before: State, after: State) -> float:

@@ -33,8 +33,8 @@ class StressThatTurns(Protocol):
     def force(self, state: State, end: Instant) -> Floats:
         """See `Effect.force`."""
 
-    def through(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.through`."""
+    def step_force(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.step_force`."""
 
     def mean(self, state: State) -> Floats:
         """See `Effect.mean_stress`."""
@@ -81,8 +81,8 @@ class FieldEffect(Effect):
         return f"{how}, {self.space.n} unknowns"
 
     @property
-    def with_axes(self) -> str:
-        """See `Effect.with_axes`."""
+    def turns_with_bodies(self) -> str:
+        """See `Effect.turns_with_bodies`."""
         return "" if self.stress is None else "its stress"
 
     @property
@@ -99,14 +99,14 @@ class FieldEffect(Effect):
         return self.here(time).unknowns
 
     @property
-    def bends(self) -> bool:
-        """See `Effect.bends`: it does in bodies that bend by any angle."""
+    def nonlinear(self) -> bool:
+        """See `Effect.nonlinear`: it does in bodies that bend by any angle."""
         return self._turned is not None
 
-    def through(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.through`."""
+    def step_force(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.step_force`."""
         assert self._turned is not None
-        return self._turned.through(before, after, span)
+        return self._turned.step_force(before, after, span)
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the force of the field's stress at the end of the step."""

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats, Ints
+from nmm.assembly.applied_forces import AppliedForces, AppliedForcesIn
 from nmm.assembly.motion import State
-from nmm.assembly.pushes import Pushes, PushesIn
 from nmm.assembly.stress_points import PressureAt, StressAt
 from nmm.effects.given.setup import Setup as Setup
 from nmm.effects.given.setup import StageLoads as StageLoads
@@ -79,7 +79,7 @@ class Effect(ABC):
         return None
 
     @property
-    def with_axes(self) -> str:
+    def turns_with_bodies(self) -> str:
         """What of it turns with the axes of bodies, in words, and not with the material.
 
         Finite strain, whose axes never turn, refuses it. Empty where nothing does.
@@ -114,7 +114,7 @@ class Effect(ABC):
         raise NotImplementedError
 
     @property
-    def bends(self) -> bool:
+    def nonlinear(self) -> bool:
         """Whether `through` gives more than the line of `force` and `matrix`."""
         return True
 
@@ -128,7 +128,7 @@ class Effect(ABC):
         """Whether the matrix of `through` is; of others contact takes the symmetric part."""
         return True
 
-    def through(self, before: State, after: State, span: Span) -> StepForce:
+    def step_force(self, before: State, after: State, span: Span) -> StepForce:
         """Return the weighed force through a step from one state to a trial of its end.
 
         It stands for `force` and `matrix`, which are its line at the start; ``after`` has the
@@ -141,7 +141,7 @@ class Effect(ABC):
         """
         raise NotImplementedError
 
-    def off_line(self, before: State, after: State, increment: Floats, span: Span) -> float:
+    def work_correction(self, before: State, after: State, increment: Floats, span: Span) -> float:
         """Work (J) that its forces, as they rise, seem to do on the increment, less what they do.
 
         They do it on the way that its points went.
@@ -207,26 +207,26 @@ class Effect(ABC):
         """Pressure (m,) in Pa of what fills the pores, at reference points of elements."""
         raise NotImplementedError
 
-    def feel_pores(self, pressures: Sequence[PressureAt]) -> None:
+    def receive_pore_pressures(self, pressures: Sequence[PressureAt]) -> None:
         """Take the `pore_pressure_at` of the other effects: it bears on strength."""
         raise NotImplementedError
 
-    def feel(self, stresses: Sequence[StressAt]) -> None:
+    def receive_stresses(self, stresses: Sequence[StressAt]) -> None:
         """Take the `stress_at` of the other effects: what holds edges by tractions needs them."""
         raise NotImplementedError
 
-    def pushes(self, state: State) -> Pushes:
+    def applied_forces(self, state: State) -> AppliedForces:
         """Return the forces that it exerts within bodies and on faces of cracks, weight apart.
 
         Stress intensities count them; the rest of the boundary they know by the stress there.
         """
         raise NotImplementedError
 
-    def feel_pushes(self, pushing: Sequence[PushesIn]) -> None:
-        """Take the `pushes` of the other effects."""
+    def receive_forces(self, forces: Sequence[AppliedForcesIn]) -> None:
+        """Take the `applied_forces` of the other effects."""
         raise NotImplementedError
 
-    def felt_energy(self, state: State) -> float:
+    def received_stress_energy(self, state: State) -> float:
         """The part (J) of its energy that is of the stresses that it feels."""
         raise NotImplementedError
 
@@ -271,7 +271,7 @@ class Effect(ABC):
         """Return the state at the start of the run as the effect changes it."""
         raise NotImplementedError
 
-    def put_in(self, state: State) -> None:
+    def join_run(self, state: State) -> None:
         """Take the state in which the effect joins a run that has begun without it."""
         raise NotImplementedError
 
@@ -279,7 +279,7 @@ class Effect(ABC):
         """Take what supports exerted that the change takes away, ready to act on the new model."""
         raise NotImplementedError
 
-    def hold_back(self, change: "Change", force: Floats) -> None:
+    def receive_residual(self, change: "Change", force: Floats) -> None:
         """Take what is out of balance as a change begins to act, a force (n,) on the new model."""
         raise NotImplementedError
 

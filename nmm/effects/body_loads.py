@@ -7,9 +7,9 @@ from typing import Self
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.assembly.applied_forces import AppliedForces
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
-from nmm.assembly.pushes import Pushes
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.dead_loads import DeadLoad
 from nmm.effects.load_factor import load_factor
@@ -59,10 +59,10 @@ class BodyLoads(Effect):
         pushed = self._push(before, mean), self._push(after, mean)
         return DeadLoad(self._model, mean).work(before, after, pushed)
 
-    def pushes(self, state: State) -> Pushes:
-        """See `Effect.pushes`."""
+    def applied_forces(self, state: State) -> AppliedForces:
+        """See `Effect.applied_forces`."""
         density = self._density(Instant.of(state))
-        return Pushes.through(lambda elements, points: density[elements])
+        return AppliedForces.of_densities(lambda elements, points: density[elements])
 
     @property
     def steady(self) -> bool:

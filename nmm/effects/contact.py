@@ -7,8 +7,8 @@ does is in `nmm.contact.model_contact`.
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Self
 
+from nmm.assembly.applied_forces import AppliedForces
 from nmm.assembly.motion import State
-from nmm.assembly.pushes import Pushes
 from nmm.assembly.stress_points import StressAt
 from nmm.contact.model_contact import ModelContact
 from nmm.effects.base import Effect, Setup
@@ -54,12 +54,12 @@ class Contact(ModelContact, Effect):
         new.go_on(self, change.parentage, change.state)
         return new
 
-    def pushes(self, state: State) -> Pushes:
-        """See `Effect.pushes`: those on faces of cracks, as last committed."""
+    def applied_forces(self, state: State) -> AppliedForces:
+        """See `Effect.applied_forces`: those on faces of cracks, as last committed."""
         from nmm.contact.points.on_faces import on_faces
 
         return on_faces(self.model, self.standing)
 
-    def feel(self, stresses: Sequence[StressAt]) -> None:
-        """See `Effect.feel`: the tractions of whole bonds are of the whole stress."""
+    def receive_stresses(self, stresses: Sequence[StressAt]) -> None:
+        """See `Effect.receive_stresses`: the tractions of whole bonds are of the whole stress."""
         self.bonds.stresses = stresses

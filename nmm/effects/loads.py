@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place
-from nmm.assembly.pushes import Pushes, joined
 from nmm.effects.acting_place import acting_place
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.load_factor import load_factor
@@ -73,11 +73,11 @@ class Loads(Effect):
             total += load.place.points.push(state, load.factor(end) * load.force)
         return total
 
-    def pushes(self, state: State) -> Pushes:
-        """See `Effect.pushes`."""
+    def applied_forces(self, state: State) -> AppliedForces:
+        """See `Effect.applied_forces`."""
         factors = (load.factor(Instant.of(state)) for load in self.loads)
         pairs = zip(self.loads, factors, strict=True)
-        return joined(Pushes.on(self._model, one.place, f * one.force) for one, f in pairs)
+        return joined(AppliedForces.on(self._model, one.place, f * one.force) for one, f in pairs)
 
     def work(self, before: State, after: State) -> float:
         """Mean of the loads at both ends of the step times the motion of their points."""

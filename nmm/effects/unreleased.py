@@ -82,8 +82,8 @@ class UnreleasedForces(Effect):
         new._take(moved, self.region[stay], begin, goal)
         return new
 
-    def hold_back(self, change: "Change", force: Floats) -> None:
-        """See `Effect.hold_back`: hold it by forces on the faces that were laid bare."""
+    def receive_residual(self, change: "Change", force: Floats) -> None:
+        """See `Effect.receive_residual`: hold it by forces on the faces that were laid bare."""
         released = _released(change.setup)
         if released is None:
             return

@@ -1,1 +1,1 @@
-"""Cracks: stress intensity, corners, toughness, criteria of growth."""
+"""Cracks: stress intensity factors, corners, toughness, criteria of growth, nucleation."""

@@ -1,4 +1,4 @@
-"""The stress that acts in the material: that of the strain, and what effects add to it."""
+"""The total stress in the material: elastic stress and the stresses that effects add to it."""
 
 from collections.abc import Callable, Sequence
 
@@ -11,14 +11,15 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.stress_points import StressAt
 
-StressOn = Callable[[PointRule], Floats]
-"""Stresses (Q, 3) in body axes at the points of a rule (Pa)."""
+StressField = Callable[[PointRule], Floats]
+"""A function that returns stresses (Q, 3) in body axes at the points of a rule (Pa)."""
 
 
 def acting_stress(model: Model, state: State, added: Sequence[StressAt], rule: PointRule) -> Floats:
-    """Return the stresses (Q, 3) in body axes at the points of a rule (Pa).
+    """Return the total stresses (Q, 3) in body axes at the points of a rule (Pa).
 
-    ``added`` are those that are no strain's: from the start, of heat, of water in the pores.
+    ``added`` are the stresses that do not follow from the strain: initial stress, thermal stress,
+    pore pressure.
     """
     found = stresses(model, state.deformation, rule)
     for one in added:  # of effects

@@ -1,4 +1,4 @@
-"""Fields of unit stress intensities about a tip, and the function that cuts them off."""
+"""Auxiliary fields of the interaction integral: unit K_I and K_II, and the weight function q."""
 
 from dataclasses import dataclass
 
@@ -8,20 +8,20 @@ from covers.approximation.singular.enrichment import Enrichment, singular_fields
 from covers.local_functions.crack_tip_functions import crack_tip_functions
 from integration.arrays import Floats
 
-# ``q`` is 1 up to this part of the radius, and falls smoothly to 0 from there on.
+# ``q`` is 1 up to this share of the radius, and falls smoothly to 0 at the radius.
 INNER = 0.3
 
 
 @dataclass(frozen=True)
 class Auxiliary:
-    """Fields of unit K_I and K_II (Williams 1957).
+    """Auxiliary fields of unit K_I and K_II about a tip (Williams 1957).
 
     Attributes
     ----------
     tip
-        The functions about the tip, of length 1.
+        The crack tip functions, for a length of 1.
     shear
-        Modulus (Pa).
+        Shear modulus (Pa).
     """
 
     tip: Enrichment
@@ -29,16 +29,16 @@ class Auxiliary:
 
     @classmethod
     def of(cls, point: Floats, ahead: Floats, kappa: float, shear: float) -> "Auxiliary":
-        """Return the fields about a point with the direction ahead of it."""
+        """Return the fields about a tip (2,) whose crack points in the direction ``ahead`` (2,)."""
         return cls(Enrichment(crack_tip_functions(kappa, 1.0), point, ahead), shear)
 
     def gradients(self, points: Floats, bearing: Floats) -> Floats:
-        """Gradients (m, 2, 2 components, 2 directions) of the displacements of both modes."""
+        """Displacement gradients (m, 2 modes, 2 components, 2 directions) at points (m, 2)."""
         unit = 1 / (2 * self.shear * np.sqrt(2 * np.pi))
         return np.asarray(unit * singular_fields(self.tip, points, bearing)[1])
 
     def cutoff(self, points: Floats, radius: float) -> tuple[Floats, Floats]:
-        """Return the cut-off ``q`` (m,), smooth to second derivatives, and its gradient (m, 2)."""
+        """Return the weight ``q`` (m,), twice differentiable, and its gradient (m, 2) (1/m)."""
         away = points - self.tip.point
         r = np.maximum(np.hypot(*away.T), 1e-300)
         s = np.clip((r / radius - INNER) / (1 - INNER), 0.0, 1.0)
@@ -48,7 +48,7 @@ class Auxiliary:
 
 
 def stresses_of(elasticity: Floats, gradient: Floats) -> Floats:
-    """Stress tensors (m, 2, 2) from displacement gradients."""
+    """Stress tensors (m, 2, 2) from displacement gradients (m, 2, 2) and elasticity (m, 3, 3)."""
     shear = gradient[:, 0, 1] + gradient[:, 1, 0]
     strain = np.stack([gradient[:, 0, 0], gradient[:, 1, 1], shear], axis=1)
     return np.asarray(np.einsum("mij,mj->mi", elasticity, strain)[:, [[0, 2], [2, 1]]])

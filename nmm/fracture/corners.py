@@ -1,4 +1,4 @@
-"""Re-entrant corners of a boundary, and of kinks of cracks: their angle and bisector."""
+"""Re-entrant corners of a boundary and at kinks of cracks: their angle and bisector."""
 
 from dataclasses import dataclass
 
@@ -11,21 +11,21 @@ from nmm.errors import FormulationError
 NEAR = 1e-9
 # Angle (rad) above a straight line below which singular fields cannot be told from smooth ones.
 FLAT = 1e-3
-# Turn (rad) of a crack from which its vertex carries functions of the corner. A kink of 34 degrees
-# loses some 1e-4 of the energy without them where 20 cells are across, one of 70 degrees 4e-3.
+# Kinks of a crack of at least this angle (rad) are enriched with corner functions. Without them,
+# a kink of 34 degrees loses some 1e-4 of the energy on 20 cells, one of 70 degrees 4e-3.
 SHARP = 0.5
 
 
 @dataclass(frozen=True)
 class Corner:
-    """A corner of the material.
+    """A re-entrant corner of the material.
 
     Attributes
     ----------
     point, angle
-        Where it is (2,), and the angle of the material (rad).
+        Its place (2,) (m), and the angle that the material fills (rad).
     direction, element
-        Unit vector (2,) of its bisector, and an element there.
+        Unit vector (2,) along the bisector, into the material, and the element at the corner.
     """
 
     point: Floats
@@ -35,12 +35,12 @@ class Corner:
 
 
 def corner_at(boundary: BoundaryEdges, point: Floats) -> Corner:
-    """Return the widest corner of a boundary at a point.
+    """Return the corner of the largest angle of a boundary at a point.
 
     Raises
     ------
     FormulationError
-        No edge of the boundary starts there, or the corner is not re-entrant.
+        The point is no vertex of the boundary, or the corner is not re-entrant.
     """
     corners = _corners(boundary, point)
     if not corners:
@@ -60,9 +60,10 @@ def corner_at(boundary: BoundaryEdges, point: Floats) -> Corner:
 
 
 def kinks(boundary: BoundaryEdges, line: Floats) -> list[Corner]:
-    """Return the corners on the outer sides of the sharp kinks of a crack that has cut material.
+    """Return the re-entrant corners at the sharp kinks of a crack along ``line`` (n, 2).
 
-    The material fills more than half a turn there, and stresses are singular as in a notch.
+    On the outer side of a kink the material fills more than 180 degrees, and stresses are singular
+    as in a notch.
     """
     way = np.diff(line, axis=0)
     turn = np.diff(np.unwrap(np.arctan2(way[:, 1], way[:, 0])))
@@ -72,7 +73,7 @@ def kinks(boundary: BoundaryEdges, line: Floats) -> list[Corner]:
 
 
 def _corners(boundary: BoundaryEdges, point: Floats) -> list[Corner]:
-    """Corners of a boundary at a point; material lies to the left of its edges."""
+    """Corners of a boundary at a point; material lies on the left of its edges."""
     size = float(np.hypot(*np.ptp(boundary.start, axis=0)))
     edge = np.flatnonzero(np.hypot(*(boundary.start - point).T) <= NEAR * size)
     before = boundary.previous[edge]

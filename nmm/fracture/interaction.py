@@ -1,7 +1,8 @@
-"""The interaction integral about a tip: over elements, and over the edges among them.
+"""The interaction integral about a crack tip: over elements, crack faces and the boundary.
 
-It is linear in the displacement, so that places know by what its gradient there counts, whatever
-the displacement is.
+It is linear in the displacement. So its value is kept as factors of the displacement gradient, of
+stresses and of forces at quadrature points, which hold for every displacement. See
+`nmm.fracture.stress_intensity` for the formula.
 """
 
 from collections.abc import Callable, Iterator
@@ -15,34 +16,35 @@ from integration.arrays import Floats, Ints
 from integration.rules import polygon_rule
 from integration.segments import graded_rule, segment_rule, spread_rule
 from integration.singular import tip_rule
+from nmm.assembly.applied_forces import AppliedForces
 from nmm.assembly.model import Model
-from nmm.assembly.pushes import Pushes
 from nmm.fracture.auxiliary import Auxiliary, stresses_of
 from nmm.fracture.surroundings import off_line
 
 Field = Callable[[Floats], Floats]
 Traction = Callable[[Floats, Floats], Floats]
 
-# Degree to which smooth parts are integrated.
+# Degree of the quadrature.
 SMOOTH_ORDER = 12
-# Elements whose middle is nearer to the tip than so many of their sizes are integrated about it.
+# Elements whose centroid is nearer to the tip than this multiple of their size get a singular rule.
 BESIDE = 1.5
-# Edges off the line behind the tip by more than this part of their distance are kinked.
+# Faces off the line behind the tip by more than this share of their distance belong to a kink.
 STRAIGHT = 1e-6
 
 
 @dataclass(frozen=True)
 class InteractionWeights:
-    """By what displacements at places count in the integrals of both modes.
+    """Factors of displacement gradients and stresses at quadrature points, for both modes.
 
     Attributes
     ----------
     owner, points
-        (m,) elements and (m, 2) places in them.
+        (m,) elements, and (m, 2) points in them.
     gradient
-        (m, 2 modes, 2, 2) factors of the gradient of the displacement, stress of pressures apart.
+        (m, 2 modes, 2, 2) factors of the displacement gradient, without the stress of projected
+        pressures.
     stress
-        (m, 2 modes, 2, 2) factors of the stress that comes on top of that of the displacement.
+        (m, 2 modes, 2, 2) factors of stresses that do not follow from the displacement.
     """
 
     owner: Ints
@@ -52,22 +54,22 @@ class InteractionWeights:
 
     @property
     def pressure(self) -> Floats:
-        """(m, 2) factors of the pressure."""
+        """(m, 2 modes) factors of a pressure."""
         return np.asarray(np.trace(self.stress, axis1=2, axis2=3))
 
 
 @dataclass(frozen=True)
-class Pulled:
-    """By what forces on the volume count, and the slope of stresses that are no strain's.
+class ForceWeights:
+    """Factors of body forces and of the gradient of added stresses at quadrature points.
 
     Attributes
     ----------
     owner, points
-        (m,) elements and (m, 2) places in them.
+        (m,) elements, and (m, 2) points in them.
     force
-        (m, 2 modes, 2) factors of the force.
+        (m, 2 modes, 2) factors of the body force.
     slope
-        (m, 2 modes, 2, 2) factors of the slope of the stress along the direction ahead.
+        (m, 2 modes, 2, 2) factors of the derivative of added stress along the direction ahead.
     """
 
     owner: Ints
@@ -78,18 +80,18 @@ class Pulled:
 
 @dataclass(frozen=True)
 class Interaction:
-    """Fields about a tip of a model.
+    """The domain about a tip of a model, with the auxiliary fields.
 
     Attributes
     ----------
     model
         The model.
     fields
-        About the tip.
+        Auxiliary fields about the tip.
     radius
-        Of the domain (m).
+        Radius of the domain (m).
     body
-        In which the tip lies.
+        The body in which the tip lies.
     """
 
     model: Model
@@ -108,20 +110,20 @@ class Interaction:
 
     @cached_property
     def _branch(self) -> Floats:
-        """Branch of the angle about the tip on all elements; zero outside the domain."""
+        """Direction (E,) about which angles are taken in each element; zero outside the domain."""
         found, elements = np.zeros(len(self.model.manifold.elements)), self._elements
         one_part = np.zeros(len(elements), dtype=np.int64)
         found[elements] = branches(self.model.cut, self.fields.tip, elements, one_part).bearing
         return found
 
-    def over_elements(self) -> Iterator[tuple[InteractionWeights, Pulled]]:
-        """Yield what counts over the material."""
+    def over_elements(self) -> Iterator[tuple[InteractionWeights, ForceWeights]]:
+        """Yield the factors at the points of the elements: those near tips, then the others."""
         near = self._elements
         polygons = self.model.manifold.elements.take(near)
         middle = polygons.centroids
         out = np.hypot(*(polygons.points - middle[polygons.polygon_of_point]).T)
         size = np.maximum.reduceat(out, polygons.first_point)
-        # About tips fields are singular; further out the cut-off is what is not polynomial.
+        # Near tips the fields are singular; further out only the weight q is not polynomial.
         tips = self.model.cut.tips.point
         nearest, away = _nearest(tips, middle)
         close = away < BESIDE * size
@@ -139,15 +141,15 @@ class Interaction:
 
     def _density(
         self, owner: Ints, points: Floats, weights: Floats
-    ) -> tuple[InteractionWeights, Pulled]:
-        """What counts at points (m, 2) of elements (m,) with areas (m,)."""
+    ) -> tuple[InteractionWeights, ForceWeights]:
+        """Factors at points (m, 2) of elements (m,) with quadrature weights (m,) (m2)."""
         q, dq = self.fields.cutoff(points, self.radius)
         ahead, both = self.fields.tip.direction, self._auxiliary(owner, points)
         on_force = np.stack([-q[:, None] * (v @ ahead) for v in both], axis=1)
         on_slope = np.stack([-q[:, None, None] * v for v in both], axis=1)
         scale = weights[:, None, None]
-        pulled = Pulled(owner, points, scale * on_force, scale[..., None] * on_slope)
-        # Near the tip, where the cut-off stays 1, forces alone count.
+        force_weights = ForceWeights(owner, points, scale * on_force, scale[..., None] * on_slope)
+        # Near the tip q is constant, and only body forces contribute.
         falls = dq.any(axis=1)
         owner, points, weights, dq = owner[falls], points[falls], weights[falls], dq[falls]
         on_stress, on_gradient = [], []
@@ -155,14 +157,14 @@ class Interaction:
             of_v = stresses_of(self.model.elasticity[owner], v)
             on_stress.append(_outer(v @ ahead, dq) - (dq @ ahead)[:, None, None] * v)
             on_gradient.append(_outer(np.einsum("mij,mj->mi", of_v, dq), ahead))
-        return self._weighed(owner, points, weights, on_stress, on_gradient), pulled
+        return self._weights(owner, points, weights, on_stress, on_gradient), force_weights
 
     def over_faces(self, traction: Traction | None) -> Iterator[InteractionWeights | Floats]:
-        """Yield what counts over faces of cracks and over the boundary, and fixed parts (2,).
+        """Yield the factors on crack faces and on the boundary, and constant contributions (2,).
 
-        Straight behind the tip nothing but a traction on the faces has a part in it, and elsewhere
-        what the auxiliary fields leave on free faces too. The boundary carries what the stress
-        there says.
+        Faces straight behind the tip contribute by their traction alone. On kinked faces the
+        auxiliary fields leave tractions, which contribute too. On the boundary the traction is
+        that of the stress there.
         """
         edges, point = self.model.cut.boundary, self.fields.tip.point
         low, high = np.minimum(edges.start, edges.end), np.maximum(edges.start, edges.end)
@@ -175,28 +177,28 @@ class Interaction:
         )
         if traction is not None:
             for part in self._graded(np.concatenate([behind, kinked])):
-                yield self._pushed(*part, traction)
+                yield self._of_traction(*part, traction)
         for part in self._graded(kinked):
-            yield self._along(*part, held=False)
+            yield self._along(*part, loaded=False)
         if len(rim):
-            yield self._along(rim, *self._even(rim), held=True)
+            yield self._along(rim, *self._even(rim), loaded=True)
 
-    def pushed(self, pushes: Pushes) -> Floats:
-        """Part (2,) of forces in the axes of the body, within it and on faces of cracks (N/m)."""
-        tip, owner = self.fields.tip.point, pushes.element
-        away = (np.hypot(*(end - tip).T) for end in (pushes.start, pushes.end))
+    def of_point_forces(self, forces: AppliedForces) -> Floats:
+        """Contribution (2,) of point forces and face tractions in the axes of the body (N/m)."""
+        tip, owner = self.fields.tip.point, forces.element
+        away = (np.hypot(*(end - tip).T) for end in (forces.start, forces.end))
         reach = np.minimum(*away)
         near = (reach < self.radius) & (self.model.manifold.element_body[owner] == self.body)
         if not near.any():
             return np.zeros(2)
-        found = pushes.take(near)
+        found = forces.take(near)
         points, weights = spread_rule(found.start, found.end, tip, SMOOTH_ORDER)
         q = weights.shape[1]
         force = weights.reshape(-1, 1) * np.repeat(found.force, q, axis=0)
         return self._of_forces(np.repeat(found.element, q), points.reshape(-1, 2), force)
 
     def _graded(self, edges: Ints) -> Iterator[tuple[Ints, Floats, Floats]]:
-        """Yield edges of cracks with their rule: smooth in the root of the way from a tip."""
+        """Yield edges of cracks with rules that are smooth in the root of the distance to a tip."""
         boundary, tips = self.model.cut.boundary, self.model.cut.tips
         start, end = boundary.start[edges], boundary.end[edges]
         nearest, _ = _nearest(tips.point, (start + end) / 2)
@@ -212,40 +214,42 @@ class Interaction:
         boundary = self.model.cut.boundary
         return segment_rule(boundary.start[edges], boundary.end[edges], SMOOTH_ORDER)
 
-    def _pushed(self, edges: Ints, points: Floats, weights: Floats, traction: Traction) -> Floats:
-        """Part (2,) of a traction on edges."""
+    def _of_traction(
+        self, edges: Ints, points: Floats, weights: Floats, traction: Traction
+    ) -> Floats:
+        """Contribution (2,) of a traction on edges."""
         owner, flat, out = self._flat(edges, points)
         return self._of_forces(owner, flat, weights.reshape(-1, 1) * traction(flat, out))
 
     def _of_forces(self, owner: Ints, points: Floats, force: Floats) -> Floats:
-        """Part (2,) of forces (m, 2) at points (m, 2) of elements (m,) (N/m)."""
+        """Contribution (2,) of forces (m, 2) at points (m, 2) of elements (m,) (N/m)."""
         ahead = self.fields.tip.direction
         pull = -self.fields.cutoff(points, self.radius)[0][:, None] * force
         modes = self._auxiliary(owner, points)
         return np.array([np.sum(pull * (v @ ahead)) for v in modes])
 
     def _along(
-        self, edges: Ints, points: Floats, weights: Floats, held: bool
+        self, edges: Ints, points: Floats, weights: Floats, loaded: bool
     ) -> InteractionWeights:
-        """What counts on any edges; with the traction of the stress where they are ``held``."""
+        """Factors on edges; with the traction of the stress there where edges are ``loaded``."""
         owner, flat, out = self._flat(edges, points)
         ahead = self.fields.tip.direction
         on_stress, on_gradient = [], []
         for v in self._auxiliary(owner, flat):
             of_v, v1 = stresses_of(self.model.elasticity[owner], v), v @ ahead
             pull = -(out @ ahead)[:, None, None] * v
-            on_stress.append(pull + _outer(v1, out) if held else pull)
+            on_stress.append(pull + _outer(v1, out) if loaded else pull)
             on_gradient.append(_outer(np.einsum("mij,mj->mi", of_v, out), ahead))
         share = -weights.ravel() * self.fields.cutoff(flat, self.radius)[0]
-        return self._weighed(owner, flat, share, on_stress, on_gradient)
+        return self._weights(owner, flat, share, on_stress, on_gradient)
 
     def _flat(self, edges: Ints, points: Floats) -> tuple[Ints, Floats, Floats]:
-        """Elements (m,), points (m, 2) and normals (m, 2) of points (k, q, 2) on edges."""
+        """Elements (m,), points (m, 2) and outward normals (m, 2) of points (k, q, 2) on edges."""
         boundary, q = self.model.cut.boundary, points.shape[1]
         out = _normals(boundary.start[edges], boundary.end[edges])
         return np.repeat(boundary.element[edges], q), points.reshape(-1, 2), np.repeat(out, q, 0)
 
-    def _weighed(
+    def _weights(
         self,
         owner: Ints,
         points: Floats,
@@ -253,7 +257,7 @@ class Interaction:
         on_stress: list[Floats],
         on_gradient: list[Floats],
     ) -> InteractionWeights:
-        """Gather factors (m, 2, 2) of stress and gradient of both modes, times weights (m,)."""
+        """Combine the factors (m, 2, 2) of stress and gradient of both modes, times weights."""
         model = self.model
         law = model.drained[owner] if model.projected else model.elasticity[owner]
         parts = [
@@ -266,7 +270,7 @@ class Interaction:
         )
 
     def _auxiliary(self, owner: Ints, points: Floats) -> Floats:
-        """Gradients (2, m, 2, 2) of both modes at points of elements (m,)."""
+        """Auxiliary displacement gradients (2 modes, m, 2, 2) at points of elements (m,)."""
         return np.swapaxes(self.fields.gradients(points, self._branch[owner]), 0, 1)
 
 
@@ -282,6 +286,6 @@ def _outer(a: Floats, b: Floats) -> Floats:
 
 
 def _normals(start: Floats, end: Floats) -> Floats:
-    """Unit normals (n, 2) out of the material on the left of edges."""
+    """Outward unit normals (n, 2) of edges with the material on their left."""
     along = (end - start) / np.hypot(*(end - start).T)[:, None]
     return np.stack([along[:, 1], -along[:, 0]], axis=1)

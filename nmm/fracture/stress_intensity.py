@@ -1,18 +1,18 @@
-"""Stress intensity factors of cracks by the interaction integral, in the form of a domain.
+"""Stress intensity factors of cracks by the interaction integral in its domain form.
 
-With the auxiliary fields of unit K_I and K_II (Williams 1957), ``q`` 1 near the tip and 0 at the
-radius of the domain, and axes 1 ahead of the crack and 2 across it (Yau, Wang and Corten 1980;
-Moran and Shih 1987; Shih and Asaro 1988)
+With the auxiliary fields of unit K_I and K_II (Williams 1957), a weight ``q`` that is 1 near the
+tip and 0 at the radius of the domain, and axes 1 ahead of the crack and 2 across it (Yau, Wang and
+Corten 1980; Moran and Shih 1987; Shih and Asaro 1988)
 
     I = int (s_ij v_i,1 + r_ij u_i,1 - s_mn e(v)_mn delta_1j) q_,j - b_i v_i,1 q  dA
         - int_faces (t_i v_i,1 + r_ij m_j u_i,1 - s_mn e(v)_mn m_1) q  ds,     K = E' I / 2,
 
-``s`` the stress and ``b`` the body force of the displacement ``u``, ``r`` the stress of the
-auxiliary displacement ``v``, ``t`` the traction on the faces, ``m`` their normal out of the
-material. Where a crack is kinked or curved the angle of ``v`` jumps across the crack itself, so
-that ``v`` leaves tractions there, which the last two terms take out; straight behind the tip they
-vanish. With them a domain may hold kinks, other cracks with their tips and parts of the boundary:
-all but the whole of its own crack. In motion ``b`` is less by density times acceleration.
+where ``s`` is the stress and ``b`` the body force of the displacement ``u``, ``r`` the stress of
+the auxiliary displacement ``v``, ``t`` the traction on the faces and ``m`` their outward normal.
+On a kinked or curved crack the angle of ``v`` is taken to jump across the crack itself, so that
+``v`` leaves tractions on its faces, for which the last two terms account; straight behind the tip
+they vanish. So a domain may contain kinks, other cracks with their tips and parts of the boundary,
+but not the whole of its own crack. In motion, density times acceleration is subtracted from ``b``.
 """
 
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ from nmm.fracture.intensity_rows import IntensityRows
 from nmm.fracture.interaction import Field, Traction
 from nmm.fracture.surroundings import farthest_face
 
-# Part of its radius by which a domain may touch what it must not hold.
+# Relative tolerance of the largest radius.
 NEAR = 1e-9
 
 
@@ -40,7 +40,7 @@ class StressIntensity:
     release_rate
         Energy release rate J = (K_I^2 + K_II^2) / E' (J/m2).
     point, direction
-        (2,) tip and the direction ahead of it.
+        (2,) place of the tip (m), and the unit vector ahead of it.
     """
 
     opening: float
@@ -69,22 +69,24 @@ def stress_intensity(
     model, unknowns
         A model on a cut mesh and its displacements.
     tip
-        Number among ``model.cut.tips``.
+        Its number among ``model.cut.tips``.
     radius
-        Of the domain (m), up to the far end of the crack; best short of the boundary and of others.
+        Radius of the domain (m), up to the far end of the crack; best clear of the boundary and of
+        other cracks.
     kappa
         Kolosov's constant (`nmm.materials.base.Law.kolosov`).
     body_force, face_traction
-        Functions of points, and of points and outward normals, as loaded; None is none.
+        Body force (N/m3) as a function of points, and traction (Pa) as a function of points and
+        outward normals; None for none.
     pressure
-        (k,) on the patches of projected volumes, see `nmm.assembly.errors.stresses`.
+        (k,) projected pressures (Pa), see `nmm.assembly.errors.stresses`.
     acceleration
-        (n,) of the unknowns, in motion.
+        (n,) accelerations of the unknowns, in motion.
 
     Raises
     ------
     NmmError
-        A tip that does not exist; a domain that holds the whole crack, about which no angle is
+        The tip does not exist, or the domain contains the whole crack, about which no angle is
         continuous.
     """
     count = len(model.cut.tips)
@@ -106,7 +108,7 @@ def stress_intensity(
 
 
 def check_domain(cut: CutCells, tip: int, radius: float) -> None:
-    """Refuse a domain that holds the whole of its crack.
+    """Refuse a domain that contains the whole of its crack.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What lies about the tip of a crack: other tips, and faces off the line behind it."""
+"""The surroundings of a crack tip: other tips, and the faces that are not straight behind it."""
 
 import numpy as np
 
@@ -6,17 +6,16 @@ from covers.cutting.components import components, unique_rows
 from covers.cutting.cut_cells import CutCells
 from integration.arrays import Bools, Floats
 
-# Faces off the line behind the tip by more than this part of their distance are bent.
+# Faces off the line behind the tip by more than this share of their distance count as bent.
 BENT = 0.02
-# Part of what reaches farthest of the crack about a tip that a domain may hold.
+# Largest radius of a domain as a share of the distance to the far end of its crack.
 OPEN = 0.95
 
 
 def farthest_face(cut: CutCells, tip: int) -> float:
-    """Return how far what is open about a tip reaches (m): its crack, with all that joins it.
+    """Return the distance (m) from a tip to the far end of its crack, with all that joins it.
 
-    A domain that held all of it would close about it, and no angle about the tip is continuous
-    there.
+    About a domain that contained all of it no angle about the tip would be continuous.
     """
     edges = cut.boundary
     vertex = unique_rows(np.concatenate([edges.start, edges.end]))[1]
@@ -27,9 +26,9 @@ def farthest_face(cut: CutCells, tip: int) -> float:
 
 
 def domain_radius(cut: CutCells, tip: int, wanted: float) -> float:
-    """Return the radius of a domain about a tip: as wanted, but short of closing about it (m).
+    """Return the radius of the domain about a tip (m): at most as ``wanted``, within its crack.
 
-    It keeps clear of the boundary and of other cracks as long as half of what is wanted is left.
+    It stays clear of the boundary and of other cracks as long as that leaves half of ``wanted``.
     """
     edges, point = cut.boundary, cut.tips.point[tip]
     bent = off_line(edges.start, edges.end, point, cut.tips.direction[tip], BENT)
@@ -41,7 +40,7 @@ def domain_radius(cut: CutCells, tip: int, wanted: float) -> float:
 
 
 def _distances(point: Floats, start: Floats, end: Floats) -> Floats:
-    """Distances (n,) of a point from segments (m)."""
+    """Distances (n,) of a point from segments from ``start`` to ``end`` (n, 2) (m)."""
     along = end - start
     share = np.sum((point - start) * along, axis=1) / np.maximum(np.sum(along**2, axis=1), 1e-300)
     nearest = start + np.clip(share, 0.0, 1.0)[:, None] * along

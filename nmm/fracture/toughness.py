@@ -1,4 +1,4 @@
-"""What a material bears at a crack tip: K_Ic, or the fracture energy that stands for it."""
+"""Fracture toughness of a material: K_Ic, or the fracture energy G_c."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ from integration.arrays import Floats
 
 @dataclass(frozen=True)
 class Toughness:
-    """Toughness of a material.
+    """Fracture toughness; one of both attributes is given.
 
     Attributes
     ----------
@@ -21,7 +21,7 @@ class Toughness:
     Raises
     ------
     ValueError
-        Both given, or none, or one that is not above zero.
+        Both or none are given, or the one given is not positive and finite.
     """
 
     intensity: float | None = None
@@ -35,14 +35,14 @@ class Toughness:
             raise ValueError(f"toughness: {given}: expected a finite number above zero")
 
     def intensities(self, stiff: Floats) -> Floats:
-        """K_Ic (n,) at tips where E' is ``stiff`` (n,) (Pa): sqrt(E' G_c) (Irwin 1957)."""
+        """K_Ic = sqrt(E' G_c) (n,) at tips of effective modulus E' ``stiff`` (Pa) (Irwin 1957)."""
         if self.intensity is not None:
             return np.full_like(stiff, self.intensity)
         assert self.energy is not None
         return np.sqrt(stiff * self.energy)
 
     def energies(self, stiff: Floats) -> Floats:
-        """G_c (n,) at tips where E' is ``stiff`` (n,) (Pa): K_Ic^2 / E'."""
+        """G_c = K_Ic^2 / E' (n,) at tips of effective modulus E' ``stiff`` (n,) (Pa)."""
         if self.energy is not None:
             return np.full_like(stiff, self.energy)
         assert self.intensity is not None

@@ -88,8 +88,8 @@ class Heat(FieldEffect):
         )
 
     @property
-    def with_axes(self) -> str:
-        """See `Effect.with_axes`: nothing; its stress turns with what it strains."""
+    def turns_with_bodies(self) -> str:
+        """See `Effect.turns_with_bodies`: nothing; its stress turns with what it strains."""
         return ""
 
     def begin(self, state: State) -> State:

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.materials.principal_stresses import PrincipalStresses
 from nmm.outputs.base import Output, View
 from nmm.quantity import Quantity
 
@@ -42,6 +43,5 @@ def von_mises(stress: Floats) -> Floats:
 
 def principal(stress: Floats) -> Floats:
     """Return the major and minor principal stress (E, 2) of stresses (E, 3)."""
-    xx, yy, xy = stress.T
-    mean, radius = (xx + yy) / 2, np.hypot((xx - yy) / 2, xy)
-    return np.stack([mean + radius, mean - radius], axis=1)
+    found = PrincipalStresses.of(stress)
+    return np.stack([found.larger, found.smaller], axis=1)

@@ -6,7 +6,8 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.errors import FormulationError
-from nmm.splitting.strength import BlockStrength, Principal, SplitJudgement
+from nmm.materials.principal_stresses import PrincipalStresses
+from nmm.splitting.strength import BlockStrength, SplitJudgement
 
 
 @dataclass(frozen=True)
@@ -40,11 +41,11 @@ class CoulombStrength(BlockStrength):
 
     def judged(self, stress: Floats) -> SplitJudgement:
         """See `BlockStrength.judged`."""
-        main = Principal.of(stress)
+        main = PrincipalStresses.of(stress)
         pulled, sheared = self._pulled(main), self._sheared(main)
         tension = (pulled >= 1) | (pulled >= sheared)
         apart = np.pi / 4 - self.friction_angle / 2
-        along = main.direction + np.pi / 2  # of the smaller principal stress
+        along = main.angle + np.pi / 2  # of the smaller principal stress
         planes = np.stack([along + apart, along - apart], axis=1)
         across = np.stack([along, np.full(len(along), np.nan)], axis=1)
         return SplitJudgement(
@@ -53,13 +54,13 @@ class CoulombStrength(BlockStrength):
             tension=tension,
         )
 
-    def _pulled(self, main: Principal) -> Floats:
+    def _pulled(self, main: PrincipalStresses) -> Floats:
         """Share (m,) of the strength in tension."""
         if self.tensile_strength is None:
             return np.zeros_like(main.larger)
         return np.maximum(main.larger, 0.0) / self.tensile_strength
 
-    def _sheared(self, main: Principal) -> Floats:
+    def _sheared(self, main: PrincipalStresses) -> Floats:
         """Share (m,) of the strength in shear."""
         if self.cohesion is None:
             return np.zeros_like(main.larger)

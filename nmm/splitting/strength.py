@@ -3,8 +3,6 @@
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
-import numpy as np
-
 from integration.arrays import Bools, Floats, Ints
 from nmm.registry import Registry
 
@@ -43,23 +41,6 @@ class BlockStrength(ABC):
     @abstractmethod
     def judged(self, stress: Floats) -> SplitJudgement:
         """Judge stresses (m, 3) as xx, yy, xy (Pa), tension positive."""
-
-
-@dataclass(frozen=True)
-class Principal:
-    """Principal stresses in the plane (Pa), and the direction (m,) of the larger one (rad)."""
-
-    larger: Floats
-    smaller: Floats
-    direction: Floats
-
-    @classmethod
-    def of(cls, stress: Floats) -> "Principal":
-        """Return those of stresses (m, 3): Mohr's circle."""
-        xx, yy, xy = stress.T
-        mean, half = (xx + yy) / 2, (xx - yy) / 2
-        radius = np.hypot(half, xy)
-        return cls(mean + radius, mean - radius, np.arctan2(xy, half) / 2)
 
 
 STRENGTHS: Registry[type[BlockStrength]] = Registry(

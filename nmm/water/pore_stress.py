@@ -45,8 +45,8 @@ class PoreStress:
         """See `Effect.force`."""
         return self._pushed(self.at(end.time), state.deformation)
 
-    def through(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.through`: in time by the means of both ends, where it does ``b p dJ``."""
+    def step_force(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.step_force`: in time by the means of both ends, where it does ``b p dJ``."""
         pressure, place, share = self.at(after.time), after.deformation, 1.0
         if span.weight < 1:
             pressure, share = (self.at(before.time) + pressure) / 2, 0.5

@@ -90,9 +90,9 @@ class PoreWater(FieldEffect):
         return cls(course, stress, conductivity, ground, weight, second, filling, bends)
 
     @property
-    def with_axes(self) -> str:
-        """See `Effect.with_axes`: the pressure follows the material in plane strain."""
-        return "" if self._turned is not None else super().with_axes
+    def turns_with_bodies(self) -> str:
+        """See `Effect.turns_with_bodies`: the pressure follows the material in plane strain."""
+        return "" if self._turned is not None else super().turns_with_bodies
 
     def acting(self, time: float) -> Floats:
         """Unknowns (n,) of the pressure (Pa)."""

@@ -13,10 +13,10 @@ import numpy as np
 
 from covers.cutting.cut_boundary import CutBoundary
 from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place, along_segment, on_parts
-from nmm.assembly.pushes import Pushes, joined
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 from nmm.effects.load_factor import load_factor
 from nmm.errors import Fault, SceneError
@@ -91,8 +91,8 @@ class WaterPressures(Effect):
         return all(one.steady for one in self.given)
 
     @property
-    def bends(self) -> bool:
-        """See `Effect.bends`: it does on bodies that bend by any angle."""
+    def nonlinear(self) -> bool:
+        """See `Effect.nonlinear`: it does on bodies that bend by any angle."""
         return self._surfaces is not None
 
     @property
@@ -100,16 +100,16 @@ class WaterPressures(Effect):
         """See `Effect.symmetric`."""
         return self._surfaces is None
 
-    def through(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.through`."""
+    def step_force(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.step_force`."""
         assert self._surfaces is not None
-        return self._surfaces.through(before, after, span)
+        return self._surfaces.step_force(before, after, span)
 
-    def pushes(self, state: State) -> Pushes:
-        """See `Effect.pushes`: those of water in cracks."""
+    def applied_forces(self, state: State) -> AppliedForces:
+        """See `Effect.applied_forces`: those of water in cracks."""
         now = Instant.of(state)
         pairs = ((one.place, one.forces(state, now)) for one in self.given)
-        return joined(Pushes.on(self._model, place, force) for place, force in pairs)
+        return joined(AppliedForces.on(self._model, place, force) for place, force in pairs)
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the pressures in the bodies' axes."""

@@ -3,13 +3,13 @@
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from nmm.assembly.applied_forces import AppliedForces
 from nmm.assembly.model import Model
-from nmm.assembly.pushes import Pushes
 from nmm.contact.points.boundary_points import tangents
 from nmm.contact.points.contact_points import ContactPoints
 
 
-def on_faces(model: Model, contacts: ContactPoints) -> Pushes:
+def on_faces(model: Model, contacts: ContactPoints) -> AppliedForces:
     """Return the forces that contacts left on either face of each crack."""
     n, p = contacts.normal, contacts
     force = p.normal_force[:, None] * n + p.shear_force[:, None] * tangents(n)
@@ -21,7 +21,7 @@ def on_faces(model: Model, contacts: ContactPoints) -> Pushes:
     start, along = edges.start[edge], edges.end[edge] - edges.start[edge]
     low, high = _shares(edge, parameter[kept], length[kept] / np.hypot(*along.T))
     begin, end = (start + share[:, None] * along for share in (low, high))
-    return Pushes(edges.element[edge], begin, end, force[kept])
+    return AppliedForces(edges.element[edge], begin, end, force[kept])
 
 
 def _shares(edge: Ints, parameter: Floats, length: Floats) -> tuple[Floats, Floats]:

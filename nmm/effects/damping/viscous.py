@@ -45,8 +45,8 @@ class ViscousDamping(Effect):
         return f"{self._mass:.6g} 1/s of the mass and {self._stiffness:.6g} s of the stiffness"
 
     @property
-    def with_axes(self) -> str:
-        """See `Effect.with_axes`: the stiffness is that of bodies as they were."""
+    def turns_with_bodies(self) -> str:
+        """See `Effect.turns_with_bodies`: the stiffness is that of bodies as they were."""
         return "damping by stiffness" if self._stiffness > 0 else ""
 
     @property

@@ -49,8 +49,8 @@ class InitialStress(Effect):
         return self.given.energy(self._model)
 
     @property
-    def bends(self) -> bool:
-        """See `Effect.bends`: it does in bodies that bend by any angle."""
+    def nonlinear(self) -> bool:
+        """See `Effect.nonlinear`: it does in bodies that bend by any angle."""
         return self._turned is not None
 
     @classmethod
@@ -81,10 +81,10 @@ class InitialStress(Effect):
         """Return the internal force, which is constant where bodies have axes that turn."""
         return self._force if self._turned is None else self._turned.force(state, end)
 
-    def through(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.through`."""
+    def step_force(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.step_force`."""
         assert self._turned is not None
-        return self._turned.through(before, after, span)
+        return self._turned.step_force(before, after, span)
 
     def mean_stress(self, state: State) -> Floats:
         """See `Effect.mean_stress`."""

@@ -42,8 +42,8 @@ class TurningStress:
         """See `Effect.force`."""
         return -self._given.force(self._at(end.time), state.deformation)
 
-    def through(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.through`: in time at the mean of both ends, where it stores all its work."""
+    def step_force(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.step_force`: by the means of both ends in time, which conserve energy."""
         stress, ends, share = self._at(after.time), [after.deformation], 1.0
         if span.weight < 1:
             stress, share = (self._at(before.time) + stress) / 2, 0.5

@@ -8,10 +8,10 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from integration.rules import polygon_rule
+from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State, material_points
 from nmm.assembly.places import Place
-from nmm.assembly.pushes import Pushes, joined
 from nmm.effects.acting_place import edge_place
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.load_factor import load_factor
@@ -52,17 +52,17 @@ class SpreadLoad:
         values = self.field.values(self.place.position, end.time)
         return np.asarray(self.factor(end) * self.share[:, None] * values)
 
-    def pushes(self, model: Model, end: Instant) -> Pushes:
+    def applied_forces(self, model: Model, end: Instant) -> AppliedForces:
         """Forces at an instant as stress intensities know them."""
         inside = self.inside
         if inside is None:
-            return Pushes.on(model, self.place, self.forces(end))
+            return AppliedForces.on(model, self.place, self.forces(end))
 
         def density(elements: Ints, points: Floats) -> Floats:
             values = self.field.values(points, end.time)
             return np.asarray(self.factor(end) * inside[elements, None] * values)
 
-        return Pushes.through(density)
+        return AppliedForces.of_densities(density)
 
     @classmethod
     def over_volume(
@@ -124,10 +124,10 @@ class FieldLoads(Effect):
             total += load.place.points.work(before, after, (first + last) / 2)
         return total
 
-    def pushes(self, state: State) -> Pushes:
-        """See `Effect.pushes`."""
+    def applied_forces(self, state: State) -> AppliedForces:
+        """See `Effect.applied_forces`."""
         now = Instant.of(state)
-        return joined(load.pushes(self._model, now) for load in self.loads)
+        return joined(load.applied_forces(self._model, now) for load in self.loads)
 
 
 def _load(setup: Setup, load: "LoadTable") -> SpreadLoad:

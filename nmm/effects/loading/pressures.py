@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING, Self
 from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats
+from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
-from nmm.assembly.pushes import Pushes, joined
 from nmm.effects.acting_place import edge_place
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 from nmm.effects.load_factor import load_factor
@@ -47,8 +47,8 @@ class SurfacePressures(Effect):
         return all(one.steady for one in self.pressures)
 
     @property
-    def bends(self) -> bool:
-        """See `Effect.bends`."""
+    def nonlinear(self) -> bool:
+        """See `Effect.nonlinear`."""
         return self._bends
 
     @property
@@ -56,15 +56,15 @@ class SurfacePressures(Effect):
         """See `Effect.symmetric`: ends of open surfaces turn and store nothing."""
         return not any(one.follows for one in self.pressures)
 
-    def through(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.through`."""
-        return self._pressed.through(before, after, span)
+    def step_force(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.step_force`."""
+        return self._pressed.step_force(before, after, span)
 
-    def pushes(self, state: State) -> Pushes:
-        """See `Effect.pushes`: those on faces of cracks."""
+    def applied_forces(self, state: State) -> AppliedForces:
+        """See `Effect.applied_forces`: those on faces of cracks."""
         now = Instant.of(state)
         parts = ((one.place, one.forces(state, now)) for one in self.pressures)
-        return joined(Pushes.on(self._model, place, force) for place, force in parts)
+        return joined(AppliedForces.on(self._model, place, force) for place, force in parts)
 
     def force(self, state: State, end: Instant) -> Floats:
         """See `Effect.force`."""

@@ -87,8 +87,8 @@ class PressedSurfaces:
             total += one.place.points.push(state, one.forces(state, end))
         return total
 
-    def through(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.through`: the forces at both ends, which are lines in the places."""
+    def step_force(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.step_force`: the forces at both ends, which are lines in the places."""
         end = Instant.of(after)
         force = span.weight * self.force(after, end)
         if span.weight < 1:

@@ -41,8 +41,8 @@ class PointDashpots(Effect):
         viscosity = np.array([one.viscosity for one in dashpots])
         return cls(setup, tuple(one.name for one in dashpots), links, viscosity)
 
-    def through(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.through`."""
+    def step_force(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.step_force`."""
         n = len(before.deformation)
         if span.step is None:
             none = np.zeros(len(self.links))

@@ -9,10 +9,10 @@ import numpy as np
 import shapely
 
 from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.applied_forces import AppliedForces
 from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.motion import Frames, MaterialPoints, State, material_points
 from nmm.assembly.places import NEAR
-from nmm.assembly.pushes import Pushes
 from nmm.effects.base import Setup
 from nmm.errors import Fault, SceneError
 from nmm.scene.tables.members import GROUND
@@ -68,10 +68,10 @@ class MemberEnds:
     def _way(self, state: State) -> Floats:
         return self.held[:, None] * self.points.moved(state.frames, state.deformation)
 
-    def pushed(self, force: Floats) -> Pushes:
+    def pushed(self, force: Floats) -> AppliedForces:
         """Return forces (m, 2) on those that are on bodies (N)."""
         kept = self.element >= 0
-        return Pushes.at(self.element[kept], self.position[kept], force[kept])
+        return AppliedForces.at(self.element[kept], self.position[kept], force[kept])
 
     def along(self, frames: Frames, directions: Floats) -> Floats:
         """Rows (m, L) of the motion along global directions (m, 2), in the bodies' axes."""

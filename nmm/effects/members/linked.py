@@ -7,9 +7,9 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats, Ints
+from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.kept import KeptOfStates
 from nmm.assembly.motion import State
-from nmm.assembly.pushes import Pushes, joined
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 from nmm.effects.members.chains import ChainAnswer
 from nmm.effects.members.kept_matrix import LIKE, KeptMatrix
@@ -41,7 +41,7 @@ class Linked(Effect):
         self._kept = KeptMatrix(setup)
 
     @property
-    def bends(self) -> bool:
+    def nonlinear(self) -> bool:
         """Whether forces are no lines in the unknowns of a step."""
         return not (self.members.links.small and self.members.chains.linear)
 
@@ -58,8 +58,8 @@ class Linked(Effect):
         links = self.members.links
         return links.pull(state, links.lines(state), self._answers.of(state).axial.force)
 
-    def pushes(self, state: State) -> Pushes:
-        """See `Effect.pushes`."""
+    def applied_forces(self, state: State) -> AppliedForces:
+        """See `Effect.applied_forces`."""
         links = self.members.links
         pull = self._answers.of(state).axial.force[:, None] * links.lines(state).along
         return joined([links.first.pushed(pull), links.second.pushed(-pull)])
@@ -80,10 +80,10 @@ class Linked(Effect):
         def made() -> csc_array:
             return links.stiffness(state, lines, members.chains.tangent(found), force)
 
-        return self._kept.of(made_of, LIKE if self.bends else 0.0, made)
+        return self._kept.of(made_of, LIKE if self.nonlinear else 0.0, made)
 
-    def through(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.through`."""
+    def step_force(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.step_force`."""
         members, links, weight = self.members, self.members.links, span.weight
         start, end = self._answers.of(before), self._answered(after)
         if len(end.broken):
@@ -153,8 +153,8 @@ class Linked(Effect):
         self._offset = np.array(carried[0])
         self.forget()
 
-    def put_in(self, state: State) -> None:
-        """See `Effect.put_in`: members are unstretched, but for their own forces, as all stands."""
+    def join_run(self, state: State) -> None:
+        """See `Effect.join_run`: members are free of stretch in this state, but for prestress."""
         self._offset = self.members.links.stretch(state)
 
     def forget(self) -> None:

@@ -7,8 +7,8 @@ import numpy as np
 from scipy.sparse import csc_array, diags_array
 
 from integration.arrays import Floats
+from nmm.assembly.applied_forces import AppliedForces
 from nmm.assembly.motion import State
-from nmm.assembly.pushes import Pushes
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.members.ends import MemberEnds, elements_at, nowhere
 from nmm.errors import FormulationError, SceneError
@@ -41,8 +41,8 @@ class PointMasses(Effect):
         np.add.at(total, rows.unknowns.ravel(), local.ravel())
         return total
 
-    def pushes(self, state: State) -> Pushes:
-        """See `Effect.pushes`; what they weigh alone."""
+    def applied_forces(self, state: State) -> AppliedForces:
+        """See `Effect.applied_forces`; what they weigh alone."""
         return self._ends.pushed(self._weight)
 
     def work(self, before: State, after: State) -> float:

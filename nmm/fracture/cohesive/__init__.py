@@ -1,1 +1,1 @@
-"""Cohesive zones: bonded faces laid where the stress calls for them, and where zones begin."""
+"""Growing cohesive zones: bonded faces inserted ahead of tips and where zones nucleate."""

@@ -1,8 +1,8 @@
-"""Stress averaged over a length: what a tip, or a place without a crack, is judged by.
+"""Non-local stress: the weighted mean about a tip or another place.
 
-Stress beside the end of a cohesive zone varies from cell to cell; its mean over a length does not
-(Wells and Sluys 2001). The weights are those of a normal distribution of the distance, times area,
-within one body, and nothing weighs beyond the length.
+Stress near the end of a cohesive zone varies from cell to cell; its weighted mean does not (Wells
+and Sluys 2001). The weights are Gaussian in the distance, times area, within one body, and zero
+beyond a cut-off length.
 """
 
 from dataclasses import dataclass
@@ -17,24 +17,24 @@ from integration.rules import PointRule, polygon_rule
 from nmm.assembly.errors import stresses
 from nmm.assembly.model import Model
 
-# Length over the standard deviation of the weights.
+# Cut-off length over the standard deviation of the weights.
 DEVIATIONS = 2.0
-# Degree to which stress times weight is integrated in an element.
+# Degree of the quadrature of stress times weight in an element.
 STRESS_ORDER = 6
 
 
 @dataclass(frozen=True)
 class StressMeans:
-    """Means about places.
+    """Weighted means of stress about places.
 
     Attributes
     ----------
     model
-        Whose stress it is.
+        The model.
     rule
-        Points at which it is taken.
+        Quadrature points of the stress.
     weights
-        (k, Q) rows that sum to one; those of places with nothing about them are empty.
+        (k, Q) rows that sum to one; those of places without material about them are empty.
     """
 
     model: Model
@@ -45,16 +45,16 @@ class StressMeans:
     def about(
         cls, model: Model, places: Floats, body: Ints, length: float, ahead: Floats | None = None
     ) -> "StressMeans":
-        """Weigh the material of bodies about places.
+        """Return the means about places.
 
         Parameters
         ----------
         places, body
-            (k, 2) in the reference place, and the body (k,) of each.
+            (k, 2) in the reference configuration (m), and the body (k,) of each.
         length
-            Beyond which nothing weighs (m).
+            Cut-off length (m).
         ahead
-            (k, 2) directions: what is on the other side does not weigh; None where all does.
+            (k, 2) directions, if only the material on their side counts.
         """
         rule = _points(model, places, length)
         near = KDTree(places).sparse_distance_matrix(
@@ -72,14 +72,14 @@ class StressMeans:
         return cls(model, rule, csr_array(each @ found))
 
     def of(self, deformation: Floats) -> Floats:
-        """Return the mean stresses (k, 3) in body axes of unknowns (n,), in Pa."""
+        """Return the mean stresses (k, 3) of unknowns (n,) in body axes (Pa)."""
         if not len(self.rule.points):
             return np.zeros((self.weights.shape[0], 3))
         return np.asarray(self.weights @ stresses(self.model, deformation, self.rule))
 
 
 def _points(model: Model, places: Floats, length: float) -> PointRule:
-    """Points of the elements that lie within a length of any place."""
+    """Quadrature points of the elements within a length of any place."""
     shapes = model.manifold.elements.to_shapely()
     tree = shapely.STRtree(shapes)
     found = tree.query(shapely.points(places), predicate="dwithin", distance=length)[1]

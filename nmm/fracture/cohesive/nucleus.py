@@ -1,4 +1,4 @@
-"""Where a zone begins away from all cracks: at the place whose mean stress reaches the strength."""
+"""Nucleation of cohesive zones away from cracks, where the mean stress reaches the strength."""
 
 from dataclasses import dataclass
 
@@ -8,25 +8,25 @@ import shapely
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.fracture.cohesive.mean_stress import StressMeans
-from nmm.fracture.principal import LargestPrincipal
 from nmm.geometry.geometry import Geometry
+from nmm.materials.principal_stresses import PrincipalStresses
 
-# Distance from cracks below which nothing begins, in lengths of the mean.
+# Distance from cracks below which no zone nucleates, in lengths of the mean.
 CLEAR_OF_CRACKS = 3.0
 
 
 @dataclass(frozen=True)
 class ZoneNuclei:
-    """Places at which zones may begin: middles of boundary edges and of elements, away from cracks.
+    """Candidate places: middles of boundary edges and centroids of elements, away from cracks.
 
     Attributes
     ----------
     place, edge
-        (k, 2), and whether (k,) each lies on the boundary: the number of its edge, else -1.
+        (k, 2) places (m), and the number (k,) of the boundary edge of each; -1 inside.
     strength
         (k,) tensile strength there (Pa).
     means
-        Of stress about them.
+        Mean stress about them.
     """
 
     place: Floats
@@ -36,7 +36,15 @@ class ZoneNuclei:
 
     @classmethod
     def of(cls, model: Model, geometry: Geometry, strength: Floats, length: float) -> "ZoneNuclei":
-        """Return the places of a model; ``strength`` (E,) of its elements, means over a length."""
+        """Return the places of a model.
+
+        Parameters
+        ----------
+        strength
+            (E,) of the elements (Pa).
+        length
+            Cut-off length of the means (m).
+        """
         edges, elements = model.manifold.boundary, model.manifold.elements
         place = np.concatenate([(edges.start + edges.end) / 2, elements.centroids])
         element = np.append(edges.element, np.arange(len(elements)))
@@ -51,23 +59,23 @@ class ZoneNuclei:
         return cls(place, edge, strength[element], means)
 
     def begun(self, model: Model, deformation: Floats, length: float) -> Floats | None:
-        """Return the polyline of the zone that begins first; None where no place calls for one.
+        """Return the polyline of the zone that nucleates first; None below the strength.
 
         Parameters
         ----------
         deformation
             (n,) unknowns.
         length
-            Of the zone (m): from the boundary inwards, inside with the place in its middle.
+            Of the zone (m): from the boundary inwards; a place inside is its middle.
         """
         if not len(self.place):
             return None
-        pulled = LargestPrincipal.of(self.means.of(deformation))
-        share = pulled.size / self.strength
+        principal = PrincipalStresses.of(self.means.of(deformation))
+        share = principal.larger / self.strength
         first = int(np.argmax(share))
         if share[first] < 1:
             return None
-        way, at = pulled.plane[first], self.place[first]
+        way, at = principal.plane[first], self.place[first]
         if self.edge[first] < 0:
             return np.array([at - length / 2 * way, at + length / 2 * way])
         edges, edge = model.manifold.boundary, self.edge[first]

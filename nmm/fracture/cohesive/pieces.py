@@ -1,4 +1,4 @@
-"""New pieces of cohesive zones: polylines whose faces begin bonded."""
+"""New segments of cohesive zones: polylines whose faces are bonded at first."""
 
 from dataclasses import replace
 
@@ -6,7 +6,7 @@ import numpy as np
 
 from covers.cutting.cut_cells import CutCells
 from integration.arrays import Floats, Ints
-from nmm.fracture.growth.advance import advanced
+from nmm.fracture.growth.advance import extended_lines
 from nmm.fracture.growth.fronts import CrackFronts
 from nmm.geometry.geometry import Geometry
 
@@ -20,23 +20,23 @@ def extended(
     ways: Floats,
     length: float,
 ) -> Geometry:
-    """Return the geometry with new pieces at some fronts.
+    """Return the geometry with new segments at some fronts.
 
-    The first piece at the tip of a crack that is open is a polyline of its own; later ones, and
-    those of bonded cracks, go on in theirs.
+    The first segment at the tip of an open crack is a polyline of its own. Later ones, and those
+    of bonded cracks, extend their polyline.
 
     Parameters
     ----------
     growing, tips
         (k,) fronts that grow, and their tips in the cut.
     ways
-        (k, 2) planes in which they grow, either way.
+        (k, 2) unit vectors along the planes in which they grow, of either sign.
     length
-        Of each piece (m).
+        Of each segment (m).
     """
     ahead = cut.tips.direction[tips]
     angle = _angle(ahead, ways)
-    lines = advanced(cut, geometry.cracks, fronts, growing, tips, angle, length)
+    lines = extended_lines(cut, geometry.cracks, fronts, growing, tips, angle, length)
     cracks, bonded = list(geometry.cracks), list(geometry.bonded)
     for number in np.unique(fronts.crack[growing]):  # a handful of cracks
         if number in geometry.bonded:
@@ -51,13 +51,13 @@ def extended(
 
 
 def with_nucleus(geometry: Geometry, line: Floats) -> Geometry:
-    """Return the geometry with a zone that begins along a polyline (n, 2)."""
+    """Return the geometry with a new zone along a polyline (n, 2)."""
     bonded = (*geometry.bonded, len(geometry.cracks))
     return replace(geometry, cracks=(*geometry.cracks, line), bonded=bonded)
 
 
 def _angle(ahead: Floats, ways: Floats) -> Floats:
-    """Angle (k,) from directions ahead to planes, the nearer way along each (rad)."""
+    """Smallest angle (k,) from directions ahead (k, 2) to planes along ``ways`` (k, 2) (rad)."""
     along = np.einsum("ij,ij->i", ahead, ways)
     across = ahead[:, 0] * ways[:, 1] - ahead[:, 1] * ways[:, 0]
     forward = np.where(along < 0, -1.0, 1.0)

@@ -1,4 +1,4 @@
-"""Tensile strength of materials as the interface of each with itself says it."""
+"""Tensile strength of materials: that of the bonded interface of each with itself."""
 
 import numpy as np
 
@@ -9,12 +9,12 @@ from nmm.interfaces.from_scene import interface_law
 
 
 def element_strength(setup: Setup) -> Floats:
-    """Return the strength (E,) of the elements (Pa); infinite where no bond says one.
+    """Return the tensile strength (E,) of the elements (Pa); infinite where no bond defines it.
 
     Raises
     ------
     SceneError
-        No material has a bond with itself.
+        No material has a bonded interface with itself.
     """
     scene = setup.scene
     found = np.full(len(scene.materials), np.inf)

@@ -1,7 +1,7 @@
-"""Fronts of cohesive zones: the ends of cracks, of zones that go on from them, and of nuclei.
+"""Fronts of cohesive zones: the ends of cracks, of zones that extend them, and of nuclei.
 
-They follow from the geometry alone: the cracks of the scene come first, then the zones in the order
-in which they began, each from where it began to where it has come.
+They follow from the geometry alone: its first polylines are the cracks of the scene, then come the
+zones in the order in which they began, each from its start to its front.
 """
 
 from collections.abc import Sequence
@@ -13,10 +13,10 @@ from nmm.geometry.geometry import Geometry
 
 
 def zone_fronts(geometry: Geometry, names: Sequence[str]) -> CrackFronts:
-    """Return the fronts of a geometry whose first cracks are those of the scene, with their names.
+    """Return the fronts of a geometry; ``names`` are those of the cracks of the scene.
 
-    A zone that begins where a crack of the scene ends takes its front over; what begins elsewhere
-    is a nucleus with two fronts.
+    A zone that begins at the end of a crack of the scene takes over its front; one that begins
+    elsewhere is a nucleus with two fronts.
     """
     own = CrackFronts.of(names)
     ends = own.points(geometry.cracks)

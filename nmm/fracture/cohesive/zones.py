@@ -1,8 +1,8 @@
-"""The effect of ``[cohesive_zones]``: bonded faces are laid where the stress calls for them.
+"""The effect of ``[cohesive_zones]``: bonded faces are inserted where the stress requires them.
 
-Ahead of a tip the mean stress says when and which way. What is laid is whole at first and changes
-no stress; its own law lets it open, where the traction on it reaches the strength. So it matters
-little when a piece is laid, as long as that is before it would open.
+The mean stress ahead of a tip determines when and in which direction. The new faces are intact at
+first and change no stress; their own law lets them open, when their traction reaches the strength.
+So the instant of insertion matters little, as long as it is before the faces would open.
 """
 
 from collections.abc import Mapping
@@ -22,30 +22,30 @@ from nmm.fracture.cohesive.pieces import extended, with_nucleus
 from nmm.fracture.cohesive.strength import element_strength
 from nmm.fracture.cohesive.zone_fronts import zone_fronts
 from nmm.fracture.growth.fronts import may_grow
-from nmm.fracture.principal import LargestPrincipal
+from nmm.materials.principal_stresses import PrincipalStresses
 
 if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints
     from nmm.effects.change import Change
     from nmm.effects.view import View
 
-# Cells by which a zone goes on beyond where it opens: a crack without functions of its tip acts as
-# if it ended up to a cell and a half before it.
+# Cells by which a zone extends beyond where it opens: a crack without tip functions acts as if it
+# ended up to a cell and a half earlier.
 LAG = 2.5
 
 
 @dataclass(frozen=True)
-class ZoneCalls:
-    """What the tips of zones have in a state.
+class ZoneTips:
+    """The tips of zones in a state.
 
     Attributes
     ----------
     front, tip
         (k,) fronts with a tip, and their tips in the cut.
     share
-        (k,) mean principal stress ahead over the strength.
+        (k,) largest principal value of the mean stress ahead, over the strength.
     plane
-        (k, 2) directions of the planes in which they would go on.
+        (k, 2) unit vectors along the planes in which they would grow.
     """
 
     front: Ints
@@ -54,15 +54,15 @@ class ZoneCalls:
     plane: Floats
 
 
-def given_way(contacts: "ContactPoints") -> Bools:
-    """Which joint points (m,) are bonds no more, or soften."""
+def failing_joints(contacts: "ContactPoints") -> Bools:
+    """Which contact points (m,) are joints whose bond has failed or softens."""
     lost = contacts.is_joint & ~contacts.bonded
     damage = contacts.history.get("damage")
     return np.asarray(lost if damage is None else lost | (contacts.is_joint & (damage > 0)))
 
 
 class CohesiveZones(Effect):
-    """Cohesive zones that grow from tips and nuclei; what they take is booked by contact."""
+    """Cohesive zones that grow from tips and nuclei; contact books the energy that they take."""
 
     name = "cohesive zones"
     external = False
@@ -89,9 +89,9 @@ class CohesiveZones(Effect):
         Raises
         ------
         SceneError
-            Nothing that could grow, or no strength.
+            Nothing can grow, or no strength is given.
         FormulationError
-            A cover that cracks cannot cut, or matter that is not linear.
+            Cracks cannot cut the cover, or a material is nonlinear.
         """
         place = setup.scene.source.place("cohesive_zones")
         if setup.formulation.cover.size is None:
@@ -115,7 +115,7 @@ class CohesiveZones(Effect):
 
     @property
     def caution(self) -> str:
-        """See `Effect.caution`: the way of a zone follows a net that is coarser than its means."""
+        """See `Effect.caution`: paths follow a mesh that is coarser than the length of means."""
         size = self._setup.formulation.cover.finest
         if size is None or size <= self._length:
             return ""
@@ -125,7 +125,7 @@ class CohesiveZones(Effect):
         )
 
     def _ahead(self) -> StressMeans:
-        """Means of stress ahead of the tips."""
+        """Mean stress ahead of the tips."""
         tips, model = self._setup.model.cut.tips, self._setup.model
         tip = self._tips[self._tips >= 0]
         body = model.manifold.element_body[tips.element[tip]]
@@ -134,22 +134,22 @@ class CohesiveZones(Effect):
     def _places(self) -> ZoneNuclei:
         return ZoneNuclei.of(self._setup.model, self._setup.geometry, self._strength, self._length)
 
-    def calls(self, state: State) -> ZoneCalls:
-        """Return what the tips have in a state."""
+    def tip_state(self, state: State) -> ZoneTips:
+        """Return the tips in a state."""
         front = np.flatnonzero(self._tips >= 0)
         tip = self._tips[front]
-        pulled = LargestPrincipal.of(self._means.of(state.deformation))
+        principal = PrincipalStresses.of(self._means.of(state.deformation))
         strength = self._strength[self._setup.model.cut.tips.element[tip]]
-        share, ahead = pulled.size / strength, self._setup.model.cut.tips.direction[tip]
-        # Where stress is low its direction says nothing: a zone goes straight on.
+        share, ahead = principal.larger / strength, self._setup.model.cut.tips.direction[tip]
+        # Where stress is low its direction is arbitrary: such a zone goes straight ahead.
         strong = share >= self._table.ahead
-        return ZoneCalls(front, tip, share, np.where(strong[:, None], pulled.plane, ahead))
+        return ZoneTips(front, tip, share, np.where(strong[:, None], principal.plane, ahead))
 
-    def _short(self, found: ZoneCalls, contacts: "ContactPoints | None") -> Bools:
-        """Whether zones (k,) end too near to where they began, or to bonds that give way.
+    def _short(self, found: ZoneTips, contacts: "ContactPoints | None") -> Bools:
+        """Whether zones (k,) end too near to their start, or to failing bonds.
 
-        Faces act only where they part all covers that they run through, and must be whole there
-        when the strength comes.
+        Faces act only where they separate all covers that they cross, and must still be intact
+        there when their traction reaches the strength.
         """
         geometry, tips = self._setup.geometry, self._setup.model.cut.tips.point[found.tip]
         crack = self._fronts.crack[found.front]
@@ -159,34 +159,34 @@ class CohesiveZones(Effect):
         short = fresh & (np.hypot(*(tips - begun).T) < self._lag)
         if contacts is None or not len(contacts):
             return np.asarray(short)
-        given = contacts.take(given_way(contacts))
+        given = contacts.take(failing_joints(contacts))
         place = self._setup.model.manifold.boundary.at(given.edge_a, given.parameter_a)
         away = np.hypot(*np.moveaxis(tips[:, None] - place, -1, 0))
         return np.asarray(short | (zone & (away < self._lag).any(axis=1)))
 
     def _free(self, front: Ints) -> Bools:
-        """Which fronts (k,) have not grown as far as they may."""
+        """Which fronts (k,) have not reached the largest growth."""
         most = np.inf if self._table.max_growth is None else self._table.max_growth
         return may_grow(self._lengths[front], most)
 
     @property
     def _lengths(self) -> Floats:
-        """How far each front has grown (n,) (m)."""
+        """Growth (n,) of each front (m)."""
         return np.array([self._grown.get(name, 0.0) for name in self._fronts.name])
 
     def event(self, view: "View") -> Event | None:
-        """Ask for new pieces where the stress calls for them, else for a nucleus."""
-        found = self.calls(view.state)
+        """Return the event of new segments where the stress requires them, else of a nucleus."""
+        found = self.tip_state(view.state)
         called = (found.share >= self._table.ahead) | self._short(found, view.contacts)
         rows = np.flatnonzero(self._free(found.front) & called)
         geometry, model = self._setup.geometry, self._setup.model
         length = self._table.increment
         if len(rows):
             front, tip, plane = found.front[rows], found.tip[rows], found.plane[rows]
-            laid = extended(geometry, model.cut, self._fronts, front, tip, plane, length)
+            extension = extended(geometry, model.cut, self._fronts, front, tip, plane, length)
             names = ", ".join(self._fronts.name[one] for one in front)
             late = bool((found.share[rows] > 1).any())
-            return Event(laid, f"cohesive zones grew at {names}", exact=late)
+            return Event(extension, f"cohesive zones grew at {names}", exact=late)
         line = (
             None
             if self._nuclei is None
@@ -198,7 +198,7 @@ class CohesiveZones(Effect):
         return Event(with_nucleus(geometry, line), f"a cohesive zone began at [{x:.6g}, {y:.6g}]")
 
     def follow(self, change: "Change") -> "CohesiveZones":
-        """Return the effect on the new geometry, with what its fronts have gained."""
+        """Return the effect on the new geometry, with the growth of its fronts."""
         new = CohesiveZones(change.setup, self._grown)
         new._grown = self._grown | {
             name: self._grown.get(name, 0.0) + float(np.hypot(*(there - here)))
@@ -207,7 +207,7 @@ class CohesiveZones(Effect):
         return new
 
     def _moved(self, new: "CohesiveZones") -> list[tuple[str, Floats, Floats]]:
-        """Fronts by name, where they are and where they were; new nuclei have not moved."""
+        """Name, new and old place of every front; those of new nuclei are the same."""
         were = dict(
             zip(self._fronts.name, self._fronts.points(self._setup.geometry.cracks), strict=True)
         )
@@ -218,13 +218,13 @@ class CohesiveZones(Effect):
         ]
 
     def history(self, state: State) -> Mapping[str, float]:
-        """Place and growth of every front (m)."""
+        """Return place and growth of every front (m), and the whole growth (m)."""
         cracks, origin = self._setup.geometry.cracks, self._setup.origin
         total = {"growth": float(sum(self._grown.values()))}
         return total | self._fronts.history(cracks, origin, self._lengths)
 
     def carried(self) -> Mapping[str, float]:
-        """How far each front has grown (m)."""
+        """Growth of each front (m)."""
         return self._grown
 
     def carry(self, carried: Mapping[str, float]) -> None:

@@ -1,1 +1,1 @@
-"""Criteria of mixed-mode growth: which way a crack kinks, and how near it is to growing."""
+"""Mixed-mode criteria: the kink angle of a crack, and its equivalent stress intensity factor."""

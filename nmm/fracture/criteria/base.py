@@ -1,4 +1,4 @@
-"""What a criterion of growth is: from the intensities at a tip to a kink and its intensity."""
+"""The base of mixed-mode criteria: from K_I and K_II to a kink angle and an equivalent K."""
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
@@ -11,15 +11,15 @@ from nmm.registry import Registry
 
 @dataclass(frozen=True)
 class Kink:
-    """How cracks would go on.
+    """The direction in which cracks would grow, and how near they are to growing.
 
     Attributes
     ----------
     angle
-        (n,) from the direction ahead of each tip, counter-clockwise, rad.
+        (n,) kink angle from the direction ahead of each tip, counter-clockwise (rad).
     equivalent
-        (n,) the intensity in opening alone that is as near to growth (Pa m^1/2): a crack grows
-        where it reaches K_Ic. Zero and below where a crack is pressed shut.
+        (n,) K_I in pure mode I that is as near to growth (Pa m^1/2): a crack grows when it reaches
+        K_Ic. Zero or negative where a crack is closed.
     """
 
     angle: Floats
@@ -27,15 +27,15 @@ class Kink:
 
 
 class Criterion(ABC):
-    """Base of criteria: pure functions of the intensities and of Kolosov's constant.
+    """Base of mixed-mode criteria: pure functions of K_I, K_II and Kolosov's constant.
 
-    Intensities of any size have the same kink, intensities of opening alone none, and sliding the
-    other way the mirrored one.
+    The kink angle must not depend on the magnitude of the intensity factors, be zero in pure mode
+    I, and change its sign with K_II.
     """
 
     @abstractmethod
     def kink(self, opening: Floats, sliding: Floats, kappa: Floats) -> Kink:
-        """Return the kinks of tips.
+        """Return the kinks of n tips.
 
         Parameters
         ----------
@@ -47,7 +47,7 @@ class Criterion(ABC):
 
 
 def hoop_angle(opening: Floats, sliding: Floats) -> Floats:
-    """Angle (n,) of the largest hoop stress about a tip, without cancellation (rad)."""
+    """Angle (n,) of the maximum hoop stress about a tip (rad), in a form without cancellation."""
     return np.asarray(2 * np.arctan2(-2 * sliding, opening + np.sqrt(opening**2 + 8 * sliding**2)))
 
 

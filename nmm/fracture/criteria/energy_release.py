@@ -1,4 +1,4 @@
-"""Maximum energy release rate of a short kink (Hussain, Pu and Underwood 1974; Wu 1978)."""
+"""Criterion of maximum energy release rate (Hussain, Pu and Underwood 1974; Wu 1978)."""
 
 from dataclasses import dataclass
 
@@ -7,17 +7,17 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.fracture.criteria.base import Criterion, Kink
 from nmm.fracture.criteria.extremes import minimum_from
-from nmm.fracture.criteria.short_kink import kinked
+from nmm.fracture.criteria.short_kink import kink_intensities
 
-# Kinks that are compared before the best is refined: up to so many degrees either way, in steps.
+# Angles that are compared before the best is refined: up to so many degrees either way, in steps.
 WIDEST, STEP = 110.0, 2.0
 
 
 @dataclass(frozen=True)
 class EnergyRelease(Criterion):
-    """Largest energy release rate of a short virtual kink; cracks grow when it is that of K_Ic.
+    """A crack grows along the short kink of the largest energy release rate, when that is G_c.
 
-    The rate is ``(k1^2 + k2^2) / E'`` with the intensities at the kink's tip
+    The rate is ``(k1^2 + k2^2) / E'`` with the stress intensity factors at the tip of the kink
     (`nmm.fracture.criteria.short_kink`); only kinks that open count.
     """
 
@@ -26,14 +26,14 @@ class EnergyRelease(Criterion):
         size = np.maximum(np.hypot(opening, sliding), 1e-300)
         one, two = opening / size, sliding / size
         grid = np.radians(np.arange(-WIDEST, WIDEST + STEP / 2, STEP))[:, None]
-        k1, k2 = kinked(np.broadcast_to(grid, (len(grid), len(one))), one, two)
+        k1, k2 = kink_intensities(np.broadcast_to(grid, (len(grid), len(one))), one, two)
         best = np.argmax(np.where(k1 > 0, k1**2 + k2**2, -np.inf), axis=0)
         angle = minimum_from(grid[best, 0], lambda t: _slopes(t, one, two))
-        k1, k2 = kinked(angle, one, two)
+        k1, k2 = kink_intensities(angle, one, two)
         return Kink(angle, np.where(k1 > 0, size * np.hypot(k1, k2), 0.0))
 
 
 def _slopes(t: Floats, one: Floats, two: Floats) -> tuple[Floats, Floats]:
-    """Derivatives of minus half the release rate, times E'."""
-    (a, b), (da, db), (dda, ddb) = (kinked(t, one, two, order) for order in (0, 1, 2))
+    """First and second derivatives of ``-(k1^2 + k2^2) / 2`` by the angle."""
+    (a, b), (da, db), (dda, ddb) = (kink_intensities(t, one, two, order) for order in (0, 1, 2))
     return -(a * da + b * db), -(da**2 + db**2 + a * dda + b * ddb)

@@ -1,4 +1,4 @@
-"""Maximum hoop stress (Erdogan and Sih 1963)."""
+"""Criterion of maximum hoop stress (Erdogan and Sih 1963)."""
 
 from dataclasses import dataclass
 
@@ -10,7 +10,7 @@ from nmm.fracture.criteria.base import Criterion, Kink, hoop_angle
 
 @dataclass(frozen=True)
 class HoopStress(Criterion):
-    """Largest hoop stress about the tip: cracks grow where it is, when it is that of K_Ic."""
+    """A crack grows towards the maximum hoop stress, when that is the one of K_Ic in mode I."""
 
     def kink(self, opening: Floats, sliding: Floats, kappa: Floats) -> Kink:
         """See `Criterion.kink`."""

@@ -1,7 +1,7 @@
-"""Intensities at the tip of a short kink from those before it.
+"""Stress intensity factors at the tip of an infinitesimal kink from those of the main crack.
 
-``k = F(angle) K`` with series in m = angle / pi for free faces (Amestoy and Leblond 1992). They
-hold for any material and load, as the kink tends to nothing.
+``k = F(angle) K``, with series in m = angle / pi for traction-free faces (Amestoy and Leblond
+1992). They hold for any load and any isotropic material.
 """
 
 import numpy as np
@@ -40,19 +40,19 @@ def _series(coefficients: tuple[float, ...], odd: int) -> Polynomial:
 SERIES = ((_series(F11, 0), _series(F12, 1)), (_series(F21, 1), _series(F22, 0)))
 
 
-def kinked(
+def kink_intensities(
     angle: Floats, opening: Floats, sliding: Floats, order: int = 0
 ) -> tuple[Floats, Floats]:
-    """Intensities (..., n) at the tip of a short kink, or derivatives of them by the angle.
+    """Return k_I and k_II (..., n) at the tip of a short kink, or their derivatives by the angle.
 
     Parameters
     ----------
     angle
-        (..., n) of the kink, up to 120 degrees either way (rad).
+        (..., n) kink angle, up to 120 degrees either way (rad).
     opening, sliding
-        (n,) intensities before it.
+        (n,) K_I and K_II of the main crack (Pa m^1/2).
     order
-        Of the derivative.
+        Order of the derivative.
     """
     (a, b), (c, d) = (
         tuple(one.deriv(order)(angle / P) / P**order for one in row) for row in SERIES

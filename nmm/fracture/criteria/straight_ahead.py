@@ -1,4 +1,4 @@
-"""Growth straight ahead: specimens with side grooves, weak planes."""
+"""Growth straight ahead, as in specimens with side grooves and along weak planes."""
 
 from dataclasses import dataclass
 
@@ -10,10 +10,10 @@ from nmm.fracture.criteria.base import Criterion, Kink
 
 @dataclass(frozen=True)
 class StraightAhead(Criterion):
-    """No kink, whatever the intensities; cracks that open grow when they release ``K_Ic^2 / E'``.
+    """A crack that opens grows without a kink when it releases ``K_Ic^2 / E'`` (Irwin 1957).
 
-    A double cantilever beam is directionally unstable: its crack is kept in the plane by grooves
-    (Irwin 1957 for the release rate).
+    The crack of a double cantilever beam, for one, is directionally unstable, and is kept in its
+    plane by grooves.
     """
 
     def kink(self, opening: Floats, sliding: Floats, kappa: Floats) -> Kink:

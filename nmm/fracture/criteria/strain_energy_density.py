@@ -1,4 +1,4 @@
-"""Minimum strain energy density (Sih 1974)."""
+"""Criterion of minimum strain energy density (Sih 1974)."""
 
 from dataclasses import dataclass
 
@@ -11,11 +11,11 @@ from nmm.fracture.criteria.extremes import minimum_from
 
 @dataclass(frozen=True)
 class StrainEnergyDensity(Criterion):
-    """Least strain energy density where the hoop stress pulls; cracks grow when it is K_Ic's.
+    """A crack grows towards the minimum of the strain energy density, when that is K_Ic's.
 
-    ``S = a11 K_I^2 + 2 a12 K_I K_II + a22 K_II^2`` is the density times the distance from the tip.
-    Beside the faces of the crack S has minima without tension, which are left aside: the one that
-    is sought is the nearest to the largest hoop stress.
+    ``S = a11 K_I^2 + 2 a12 K_I K_II + a22 K_II^2`` is the strain energy density times the distance
+    from the tip. Of its minima the one nearest to the maximum hoop stress is taken; those near the
+    faces of the crack have no tension.
     """
 
     def kink(self, opening: Floats, sliding: Floats, kappa: Floats) -> Kink:
@@ -24,7 +24,7 @@ class StrainEnergyDensity(Criterion):
         one, two = opening / size, sliding / size
         start = hoop_angle(one, two)
         angle = minimum_from(start, lambda t: _slopes(t, one, two, kappa))
-        # The density of an opening crack straight ahead is 2 (kappa - 1) K_I^2.
+        # Straight ahead in pure mode I the density is 2 (kappa - 1) K_I^2 in these units.
         density = _density(angle, one, two, kappa) / (2 * (kappa - 1))
         pulls = np.cos(angle / 2) * one - 3 * np.sin(angle / 2) * two
         equivalent = np.where(pulls > 0, size * np.sqrt(np.maximum(density, 0.0)), 0.0)
@@ -32,7 +32,7 @@ class StrainEnergyDensity(Criterion):
 
 
 def _density(t: Floats, one: Floats, two: Floats, kappa: Floats) -> Floats:
-    """S times 16 pi over the inverse of the shear modulus, at angles (n,)."""
+    """S times 16 pi times the shear modulus, at angles (n,)."""
     c, s = np.cos(t), np.sin(t)
     a11 = (1 + c) * (kappa - c)
     a12 = s * (2 * c - kappa + 1)

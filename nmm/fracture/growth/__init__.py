@@ -1,1 +1,1 @@
-"""Growth of cracks: fronts and their intensities, the rule of growth, where new pieces end."""
+"""Crack growth: fronts and their intensities, the growth rule, new segments, growth in time."""

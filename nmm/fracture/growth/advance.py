@@ -1,8 +1,8 @@
-"""New pieces of cracks, and where they end.
+"""New segments of cracks, and where they end.
 
-A piece goes straight from its tip by the growth length. One that would meet the boundary, a hole or
-another crack, or end less than a quarter of that length short of it, ends on it: the front is
-gone, and what is cut off is a body of its own.
+A segment goes straight from its tip by the growth length. One that would meet the boundary, a hole
+or another crack, or end less than a quarter of that length short of it, ends on it. The front then
+has no tip any more, and a part that is cut off becomes a body of its own.
 """
 
 from collections.abc import Sequence
@@ -11,11 +11,11 @@ import numpy as np
 
 from covers.cutting.cut_cells import CutCells
 from integration.arrays import Floats, Ints
-from nmm.fracture.clear_way import clear_length
+from nmm.fracture.free_length import free_length
 from nmm.fracture.growth.fronts import CrackFronts
 
 
-def advanced(
+def extended_lines(
     cut: CutCells,
     cracks: Sequence[Floats],
     fronts: CrackFronts,
@@ -24,16 +24,16 @@ def advanced(
     angle: Floats,
     length: float,
 ) -> tuple[Floats, ...]:
-    """Return the polylines with new pieces at some fronts.
+    """Return the polylines with new segments at some fronts.
 
     Parameters
     ----------
     growing, tips
         (k,) fronts that grow, and their tips in the cut.
     angle
-        (k,) of each new piece from the direction ahead (rad).
+        (k,) of each new segment from the direction ahead (rad).
     length
-        Of each (m).
+        Of each segment (m).
     """
     ends = new_ends(cut, fronts.points(cracks)[growing], tips, angle, length)
     return with_pieces(cracks, fronts, growing, ends)
@@ -42,7 +42,7 @@ def advanced(
 def with_pieces(
     cracks: Sequence[Floats], fronts: CrackFronts, growing: Ints, ends: Floats
 ) -> tuple[Floats, ...]:
-    """Return the polylines drawn on to ``ends`` (k, 2) at the fronts that grow (k,)."""
+    """Return the polylines extended to ``ends`` (k, 2) at the fronts that grow (k,)."""
     grown = list(cracks)
     for front, last in zip(growing, ends, strict=True):  # a handful of fronts
         line = grown[fronts.crack[front]]
@@ -52,7 +52,7 @@ def with_pieces(
 
 
 def new_ends(cut: CutCells, begin: Floats, tips: Ints, angle: Floats, length: float) -> Floats:
-    """Return where new pieces (k,) end (k, 2) that begin at tips; see `advanced`."""
+    """Return the ends (k, 2) of new segments from tips; see `extended_lines`."""
     edges, ahead = cut.boundary, cut.tips.direction[tips]
     start, end, body = edges.start, edges.end, edges.body
     c, s = np.cos(angle), np.sin(angle)
@@ -61,9 +61,9 @@ def new_ends(cut: CutCells, begin: Floats, tips: Ints, angle: Floats, length: fl
     bodies = cut.element_body[cut.tips.element[tips]]
     for here, way, mine in zip(begin, ways, bodies, strict=True):  # a handful of fronts
         near = body == mine
-        last = here + clear_length(here, way, start[near], end[near], length) * way
+        last = here + free_length(here, way, start[near], end[near], length) * way
         found.append(last)
-        # A piece that comes after this one may not cross it.
+        # The next segments may not cross this one.
         start, end = np.append(start, here[None], axis=0), np.append(end, last[None], axis=0)
         body = np.append(body, mine)
     return np.array(found).reshape(-1, 2)

@@ -1,14 +1,13 @@
-"""Tips that divide in two: where more energy comes in than one crack can take.
+"""Crack branching: where more energy flows into a tip than one crack can take.
 
-A tip that runs at ``v`` takes in ``G (1 - v / c_R)``, G that of the crack at rest; two tips of the
-same crack take ``2 G_c`` at least. So one may become two as soon as ``G >= 2 G_c``: when it
-runs at half the speed of Rayleigh's wave. This is a rule of the project: a bound by energy alone,
-which leaves out how G falls as the tip divides. With the fields of both branches the least speed is
-0.39 of that of shear waves in antiplane strain (Adda-Bedia 2004). Both branches then grow by the
-criterion on their own.
+The energy flow into a tip of speed ``v`` is ``G (1 - v / c_R)``, with G of the crack at rest; two
+tips need ``2 G_c`` at least. So a tip may branch as soon as ``G >= 2 G_c``, which is at half the
+Rayleigh wave speed. This rule is the project's own: a bound by energy alone, which leaves out that
+G falls as the tip branches. With the fields of both branches, the least speed in antiplane strain
+is 0.39 of the shear wave speed (Adda-Bedia 2004). Each branch then grows by the criterion.
 
-Energy alone knows no distance from one division to the next, and would divide a tip at every piece.
-So twice the fracture energy must have come in along a length that the tip has run since it divided.
+An energy bound gives no distance between branchings: a tip would branch at every segment. So twice
+the fracture energy must have flowed in along a length that the tip has run since it last branched.
 """
 
 from collections.abc import Sequence
@@ -22,26 +21,26 @@ from nmm.fracture.growth.advance import new_ends, with_pieces
 from nmm.fracture.growth.fronts import CrackFronts
 from nmm.fracture.growth.tips.intensities import Intensities
 
-# Multiples of the fracture energy from which a tip divides.
+# Multiple of the fracture energy from which a tip branches.
 TWO = 2.0
 
 
 @dataclass(frozen=True)
 class Branching:
-    """Tips divide into two.
+    """Rule of branching.
 
     Attributes
     ----------
     angle
-        Of either from where the tip would go (rad).
+        Of each branch from the kink of the criterion (rad).
     length
-        Along which twice the fracture energy must have come in (m).
+        Along which twice the fracture energy must have flowed in (m).
     """
 
     angle: float
     length: float
 
-    def laid(
+    def extended(
         self,
         cut: CutCells,
         cracks: Sequence[Floats],
@@ -50,10 +49,10 @@ class Branching:
         twice: Bools,
         length: float,
     ) -> tuple[tuple[Floats, ...], str]:
-        """Return the polylines with new pieces at all fronts ``found``, and what happened.
+        """Return the polylines with new segments at all fronts ``found``, and what happened.
 
-        Those that are fed ``twice`` (k,) divide. A branch to the left goes on in the polyline of
-        its crack, one to the right begins another.
+        The fronts ``twice`` (k,) branch. The left branch continues the polyline of its crack, the
+        right one begins another.
         """
         begin = fronts.points(cracks)[found.front]
         angle = found.kink.angle + self.angle * twice

@@ -1,4 +1,4 @@
-"""The effect of ``[fracture]`` in statics: whole pieces, each in equilibrium."""
+"""The effect of ``[fracture]`` in statics: segment after segment, each followed by equilibrium."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -7,18 +7,18 @@ import numpy as np
 from nmm.effects.base import Setup
 from nmm.fracture.growth.growing import GrowingCracks
 from nmm.fracture.growth.grown import GrownSoFar
-from nmm.fracture.growth.on_the_way import GrowthPath
+from nmm.fracture.growth.growth_path import GrowthPath
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
 
-# Cells that must be left of a ligament: with a fifth to a third of one loads are 20 to 35 % too
-# large.
+# Cells that must be left of a ligament for its load to count: with a fifth to a third of a cell
+# loads are 20 to 35 % too large.
 SHORT = 1.0
 
 
 class CrackGrowth(GrowingCracks):
-    """Cracks that grow in statics; what growth takes is the energy that a change of it frees."""
+    """Crack growth in statics; the energy that growth takes is the one that the change frees."""
 
     def __init__(
         self,
@@ -30,11 +30,11 @@ class CrackGrowth(GrowingCracks):
         super().__init__(setup, sofar)
         self._path = GrowthPath() if path is None else path
         self._parted = parted
-        # A crack that begins frees what it does under the load at which strength was reached.
+        # A crack that nucleates frees its energy under the load at which the strength was reached.
         self.at_toughness = self._followed and not setup.geometry.nuclei
 
     def follow(self, change: "Change") -> "CrackGrowth":
-        """Return the effect on the new geometry, with what its fronts have gained."""
+        """Return the effect on the new geometry, with the growth of its fronts."""
         parted = change.new.manifold.n_bodies > change.old.manifold.n_bodies
         begun = len(change.setup.geometry.nuclei) > len(self._setup.geometry.nuclei)
         path = self._path.begun_anew() if begun else self._path
@@ -46,24 +46,24 @@ class CrackGrowth(GrowingCracks):
             return 0.0
         before = self._path
         self._path = before.on(self._length, factor, stored)
-        return self._path.beyond_chord() - before.beyond_chord()
+        return self._path.beyond_secant() - before.beyond_secant()
 
     @property
     def _followed(self) -> bool:
-        """Whether loads follow the toughness."""
+        """Whether loads are controlled so that cracks stay at their toughness."""
         return self._table.control == "toughness"
 
-    def freed_until_now(self, booked: float, stored: float) -> float:
-        """See `GrowingCracks.freed_until_now`; with the piece that parted a body at the end."""
+    def energy_freed(self, booked: float, stored: float) -> float:
+        """See `GrowingCracks.energy_freed`; with the last ligament where a body has parted."""
         if not self._parted or not len(self._path.stations):
             return booked
-        # What the last cut let go of by itself is booked already.
+        # The energy that the last cut released by itself is booked already.
         let_go = float(self._path.stations[-1, 2]) - stored
         return booked - let_go + self._path.to_the_end(self._length, self._short)
 
     @property
     def _short(self) -> float:
-        """What may be left of all ligaments (m) where loads are still known."""
+        """Length of all ligaments (m) below which loads are no longer accurate."""
         size = self._setup.formulation.cover.finest
         assert size is not None  # of meshes
         return SHORT * size * float((self._sofar.length > 0).sum())
@@ -73,7 +73,7 @@ class CrackGrowth(GrowingCracks):
         return float(self._sofar.length.sum())
 
     def carried(self) -> tuple[Any, ...]:
-        """See `GrowingCracks.carried`; and the way at the toughness."""
+        """See `GrowingCracks.carried`; with the growth path at the toughness."""
         return (*super().carried(), self._path.stations, self._path.jumped, self._parted)
 
     def carry(self, carried: tuple[Any, ...]) -> None:

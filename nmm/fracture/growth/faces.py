@@ -1,4 +1,4 @@
-"""Faces of cracks in a state: where they are, how far they are open and have slid."""
+"""Crack faces in a state: their place, opening and sliding."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -13,16 +13,16 @@ from nmm.quantity import ENDS, Quantity
 
 @dataclass(frozen=True)
 class CrackFaces:
-    """Pairs of edges of a boundary that are both faces of a crack.
+    """Pairs of boundary edges that are opposite faces of a crack.
 
     Attributes
     ----------
     crack
-        (m,) number of each pair's crack.
+        (m,) number of the crack of each pair.
     left, right
-        Start and end of each pair (2 m), on either side.
+        Start and end points (2 m) of the pairs on either side.
     bend
-        Whether faces turn by what they strain: only where strain is finite.
+        Whether the strain turns faces: in finite strain alone.
     """
 
     crack: Ints
@@ -32,7 +32,7 @@ class CrackFaces:
 
     @classmethod
     def of(cls, model: Model) -> "CrackFaces":
-        """Return all of a model."""
+        """Return all pairs of a model."""
         edges, manifold = model.cut.boundary, model.manifold
         one = np.flatnonzero((edges.crack >= 0) & (edges.opposite > np.arange(len(edges))))
         points = np.stack([edges.start[one], edges.end[one]], axis=1).reshape(-1, 2)
@@ -43,8 +43,8 @@ class CrackFaces:
         return cls(edges.crack[one], left, right, model.finite)
 
     def quantities(self, state: State) -> dict[str, Quantity]:
-        """What a frame holds of them."""
-        ends, opening, sliding = self.apart(state)
+        """Return the quantities of the faces for a frame."""
+        ends, opening, sliding = self.jumps(state)
         return {
             "faces": Quantity("cracks", ends, "m", ENDS),
             "crack": Quantity("cracks", self.crack.astype(float)),
@@ -55,29 +55,32 @@ class CrackFaces:
     def row(
         self, names: Mapping[int, str], cracks: Sequence[Floats], state: State
     ) -> dict[str, float]:
-        """What a line of the history holds of cracks, polylines, with ``names`` by number."""
-        row, opening = {}, self.apart(state)[1]
+        """Return length and largest opening (m) of cracks, polylines, for a line of the history.
+
+        ``names`` gives the name of each crack by its number.
+        """
+        row, opening = {}, self.jumps(state)[1]
         for number, name in names.items():  # a handful
             row[f"{name}:length"] = float(np.hypot(*np.diff(cracks[number], axis=0).T).sum())
             row[f"{name}:opening"] = float(opening[self.crack == number].max(initial=0.0))
         return row
 
-    def apart(self, state: State) -> tuple[Floats, Floats, Floats]:
-        """Return ends (m, 4) half way between both faces, and how far they are open and have slid.
+    def jumps(self, state: State) -> tuple[Floats, Floats, Floats]:
+        """Return the mid-surface (m, 4) of the faces, their opening (m,) and sliding (m,) (m).
 
-        (m,) each, at the middles of the faces (m); open is positive.
+        Opening and sliding are those at the middles of the faces; open is positive.
         """
         one, two = (
             side.place(state.frames, state.deformation).reshape(-1, 2, 2)
             for side in (self.left, self.right)
         )
         ends = (one + two) / 2
-        # Strain that counts as small turns no face, however large it is in units of one.
+        # In small strain faces do not turn with the strain, however large it is.
         shape = state.deformation if self.bend else np.zeros_like(state.deformation)
         flanks = self.left.place(state.frames, shape) + self.right.place(state.frames, shape)
         along = flanks[1::2] - flanks[::2]
         along = along / np.maximum(np.hypot(*along.T), 1e-300)[:, None]
-        # The material of the first side is on the left of its edges.
+        # The material lies on the left of an edge.
         jump = (one - two).mean(axis=1)
         opening = along[:, 0] * jump[:, 1] - along[:, 1] * jump[:, 0]
         return ends.reshape(-1, 4), opening, (along * jump).sum(axis=1)

@@ -1,4 +1,4 @@
-"""Fronts: the ends of cracks, those of a scene and those that began, wherever their tips are."""
+"""Crack fronts: the ends of the polylines of cracks, and their tips in a cut."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,26 +8,26 @@ import numpy as np
 from covers.cutting.cut_cells import CutCells
 from integration.arrays import Bools, Floats, Ints
 
-# A tip is the end of a polyline that lies within so many of the lengths by which a cut may move it.
+# A tip belongs to the end of a polyline within this multiple of the tolerance of the cut.
 MOVED = 4.0
-# Part of a length by which sums of pieces are rounded.
+# Relative rounding of sums of lengths.
 ROUNDING = 1e-6
 
 
 @dataclass(frozen=True)
 class CrackFronts:
-    """Both ends of every crack of a scene and of every nucleus, and the ends of branches.
+    """Both ends of every crack of a scene and of every nucleus, and the end of every branch.
 
-    Those that are no tips now have ended or never were.
+    An end without a tip lies on a boundary or on another crack.
 
     Attributes
     ----------
     name
-        Of each front, "notch:start" and "notch:end".
+        Name of each front, as "notch:start" and "notch:end".
     crack
         (n,) number of the crack among those of the geometry.
     last
-        (n,) whether it is the last point of the polyline, else the first.
+        (n,) whether it is the last point of its polyline, else the first.
     """
 
     name: tuple[str, ...]
@@ -36,15 +36,16 @@ class CrackFronts:
 
     @classmethod
     def of(cls, names: Sequence[str]) -> "CrackFronts":
-        """Return the fronts of cracks."""
+        """Return the fronts of cracks with these names."""
         both = [f"{name}:{end}" for name in names for end in ("start", "end")]
         n = len(names)
         return cls(tuple(both), np.repeat(np.arange(n), 2), np.tile([False, True], n))
 
     def with_born(self, number: int, nuclei: Sequence[int] = ()) -> "CrackFronts":
-        """Return these and those of the polylines beyond theirs, of ``number`` in all.
+        """Return these and the fronts of all further polylines, up to ``number`` of them.
 
-        A nucleus has two ends, a branch one: the last.
+        ``nuclei`` are the numbers of polylines that nucleated: they have two fronts, branches one,
+        their last point.
         """
         found, branches = self, 0
         for line in range(int(self.crack.max(initial=-1)) + 1, number):  # a handful of cracks
@@ -64,12 +65,12 @@ class CrackFronts:
         return len(self.crack)
 
     def points(self, cracks: Sequence[Floats]) -> Floats:
-        """Ends (n, 2) of the polylines."""
+        """Places (n, 2) of the fronts on the polylines (m)."""
         pairs = zip(self.crack, self.last, strict=True)
         return np.array([cracks[crack][-1 if last else 0] for crack, last in pairs]).reshape(-1, 2)
 
     def tips(self, cut: CutCells, cracks: Sequence[Floats]) -> Ints:
-        """Number (n,) of the tip of each front among those of a cut; -1 where it has none."""
+        """Number (n,) of the tip of each front among those of a cut; -1 where there is none."""
         found = np.full(len(self), -1, dtype=np.int64)
         if not len(cut.tips):
             return found
@@ -81,20 +82,20 @@ class CrackFronts:
         return found
 
     def former(self, before: Sequence[Floats], after: Sequence[Floats]) -> Floats:
-        """Points (n, 2) of the polylines ``before``; where those that are new began.
+        """Return where the fronts were before (n, 2); those of new polylines where these began.
 
-        Branches and nuclei at an edge began at the first of two points, nuclei inside at the second
+        Branches and nuclei at an edge begin at the first of two points, nuclei inside at the second
         of three.
         """
         begun = [line[(len(line) - 1) // 2][None] for line in after[len(before) :]]
         return self.points([*before, *begun])
 
     def gained(self, before: Sequence[Floats], after: Sequence[Floats]) -> Floats:
-        """Length (n,) by which each front has gone on from one set of polylines to another (m)."""
+        """Length (n,) by which each front has grown from one set of polylines to another (m)."""
         return np.asarray(np.hypot(*(self.points(after) - self.former(before, after)).T))
 
     def swing(self, cracks: Sequence[Floats], grown: Floats) -> float:
-        """Largest of the smaller of two turns (rad) in a row, one way and back, of new pieces."""
+        """Largest zigzag (rad) of grown segments: the smaller of two successive opposite turns."""
         largest = 0.0
         for crack, last, length in zip(self.crack, self.last, grown, strict=True):  # a handful
             line = cracks[crack][::-1] if last else cracks[crack]
@@ -109,7 +110,7 @@ class CrackFronts:
         return largest
 
     def history(self, cracks: Sequence[Floats], origin: Floats, grown: Floats) -> dict[str, float]:
-        """Place in the scene's axes and growth (n,) of every front (m), by its name."""
+        """Return place in the axes of the scene (m) and growth (m) of every front, by its name."""
         row: dict[str, float] = {}
         places = self.points(cracks) + origin
         for name, (x, y), length in zip(self.name, places.tolist(), grown.tolist(), strict=True):
@@ -118,10 +119,10 @@ class CrackFronts:
 
 
 def nucleus_name(number: int) -> str:
-    """Name of the crack that began after so many others."""
+    """Name of the crack that nucleated as number ``number``, counted from 0."""
     return f"nucleus {number + 1}"
 
 
 def may_grow(grown: Floats, most: float) -> Bools:
-    """Which fronts (n,) have not grown as far as they may (m)."""
+    """Which fronts (n,) have grown by less than ``most`` (m)."""
     return np.asarray(grown < most * (1 - ROUNDING))

@@ -1,4 +1,4 @@
-"""Cracks that grow where their tips reach the toughness: what statics and motion have in common."""
+"""Growing cracks: what crack growth in statics and in time have in common."""
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 import numpy as np
 
 from integration.arrays import Bools, Floats
+from nmm.assembly.applied_forces import AppliedForcesIn
 from nmm.assembly.motion import MaterialPoints, State, material_points
-from nmm.assembly.pushes import PushesIn
 from nmm.assembly.stress_points import PressureAt, StressAt
 from nmm.effects.base import Effect, Setup
 from nmm.effects.event import Event
-from nmm.fracture.growth.advance import advanced
-from nmm.fracture.growth.beginning import CrackBeginnings
+from nmm.fracture.growth.advance import extended_lines
+from nmm.fracture.growth.crack_nucleation import CrackNucleation
 from nmm.fracture.growth.faces import CrackFaces
 from nmm.fracture.growth.fronts import CrackFronts, nucleus_name
 from nmm.fracture.growth.grown import GrownSoFar
@@ -23,7 +23,7 @@ from nmm.fracture.growth.refusals import refuse
 from nmm.fracture.growth.rule import GrowthRule
 from nmm.fracture.growth.tips.intensities import Intensities
 from nmm.fracture.growth.tips.measured import MeasuredTips
-from nmm.fracture.growth.tips.parallel_stress import at_end_of_piece, parallel_stress
+from nmm.fracture.growth.tips.parallel_stress import kink_without_end_shear, parallel_stress
 from nmm.quantity import SPOT, Quantity
 
 if TYPE_CHECKING:
@@ -32,14 +32,14 @@ if TYPE_CHECKING:
 
 
 class GrowingCracks(Effect):
-    """Cracks of the scene that grow by a rule; their fracture energy is what the growth takes."""
+    """Cracks of the scene that grow by a rule, and cracks that nucleate."""
 
     name = "fracture"
     external = False
     held: ClassVar[bool] = False
-    """Whether new faces are held at first."""
+    """Whether the tractions on new faces are released gradually (`ReleasedTractions`)."""
     at_toughness: bool = False
-    """Whether the load keeps cracks at their toughness, so that they free just what they take."""
+    """Whether the load keeps cracks at their toughness, so that they free their fracture energy."""
 
     def __init__(self, setup: Setup, sofar: GrownSoFar | None = None) -> None:
         table = setup.scene.fracture
@@ -55,7 +55,7 @@ class GrowingCracks(Effect):
         self._sofar = GrownSoFar(np.zeros(len(self._fronts)), 0.0) if sofar is None else sofar
         self._tips = self._fronts.tips(setup.model.cut, cracks)
         self._measured = MeasuredTips(setup, self.rule, self._tips, table.radius, self.held)
-        self._beginnings = CrackBeginnings(setup, self.rule.toughness)
+        self._nucleation = CrackNucleation(setup, self.rule.toughness)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -68,85 +68,88 @@ class GrowingCracks(Effect):
         """
         made = cls(setup)
         refuse(setup, made._tips)
-        made._beginnings.refuse()
+        made._nucleation.refuse()
         return made
 
     @property
     def caution(self) -> str:
-        """See `Effect.caution`: cracks that begin too short for the net or for the toughness."""
-        return self._beginnings.caution
+        """See `Effect.caution`: nuclei that are too short for the mesh or for the toughness."""
+        return self._nucleation.caution
 
     @property
     def about(self) -> str:
         """See `Effect.about`."""
         said = f"{self._table.criterion}, pieces of {self.rule.increment:g} m"
-        return said + self._beginnings.about
+        return said + self._nucleation.about
 
     @property
     def energy_taken(self) -> float:
-        """Energy (J) that the growth so far took by the toughness of the material."""
+        """Fracture energy (J) of the growth since the start."""
         return self._sofar.energy
 
     @property
     def swing(self) -> float:
-        """Angle (rad) by which pieces have turned one way and the next ones back, the largest."""
+        """Largest zigzag (rad) of the paths, see `CrackFronts.swing`."""
         cracks = self._setup.geometry.cracks
         return self._fronts.swing(cracks, self._sofar.length)
 
     @property
     def shut(self) -> float:
-        """Largest of -K_I over |K| at which a crack has grown."""
+        """Largest ratio -K_I / |K| at which a crack has grown."""
         return self._sofar.shut
 
     def arrived(self, factor: float, stored: float) -> float:
-        """Note a balance at the toughness; return the energy (J) to book beside that of chords.
+        """Record an equilibrium at the toughness; return the energy (J) beyond the secant's.
 
-        ``stored`` is the energy (J) stored under the load factor.
+        ``stored`` is the energy (J) stored under the load factor ``factor``. See `GrowthPath`.
         """
         return 0.0
 
-    def freed_until_now(self, booked: float, stored: float) -> float:
-        """Energy (J) that growth freed: what is ``booked``, where so much is ``stored`` at last."""
+    def energy_freed(self, booked: float, stored: float) -> float:
+        """Return the energy (J) freed by growth, of which ``booked`` is booked already.
+
+        ``stored`` is the energy (J) stored at the end of the run.
+        """
         return booked
 
     def intensities(self, state: State) -> Intensities:
-        """Return what the tips have in a state."""
+        """Return the intensity factors of the tips in a state."""
         return self._measured.in_state(state)
 
     def reached(self, state: State) -> float | None:
-        """Share of what it takes that what grows or begins first has reached; None if nothing can.
+        """Largest ratio to toughness of a tip, or to strength of a nucleus; None without any.
 
-        Fronts that have grown as far as they may count where nothing else is left that feels the
-        load; it is zero where no tip does.
+        Fronts at their largest growth count only where no other loaded tip is left. Zero where no
+        tip is loaded.
         """
-        nucleus = self._beginnings.next(state)
+        nucleus = self._nucleation.next(state)
         if not len(self._measured.tip) and nucleus is None:
             return None
-        found = self._measured.felt(state)
+        found = self._measured.loaded_tips(state)
         begins = [] if nucleus is None else [nucleus.share]
         left = np.append(found.share[self.free(found)], begins)
         left = left if len(left) else found.share
         return float(left.max(initial=0.0))
 
-    def unopened(self, state: State) -> float:
-        """Largest share of the strength where no line fits along which a crack could begin."""
-        return self._beginnings.unopened(state)
+    def unopened_strength_ratio(self, state: State) -> float:
+        """See `CrackNucleation.unopened_strength_ratio`."""
+        return self._nucleation.unopened_strength_ratio(state)
 
-    def feel(self, stresses: Sequence[StressAt]) -> None:
-        """See `Effect.feel`."""
+    def receive_stresses(self, stresses: Sequence[StressAt]) -> None:
+        """See `Effect.receive_stresses`."""
         self._measured.stresses = stresses
-        self._beginnings.feel(stresses)
+        self._nucleation.receive_stresses(stresses)
 
-    def feel_pores(self, pressures: Sequence[PressureAt]) -> None:
-        """See `Effect.feel_pores`."""
-        self._beginnings.feel_pores(pressures)
+    def receive_pore_pressures(self, pressures: Sequence[PressureAt]) -> None:
+        """See `Effect.receive_pore_pressures`."""
+        self._nucleation.receive_pore_pressures(pressures)
 
-    def feel_pushes(self, pushing: Sequence[PushesIn]) -> None:
-        """See `Effect.feel_pushes`."""
-        self._measured.pushing = pushing
+    def receive_forces(self, forces: Sequence[AppliedForcesIn]) -> None:
+        """See `Effect.receive_forces`."""
+        self._measured.forces = forces
 
     def free(self, found: Intensities) -> Bools:
-        """Which fronts (k,) with a tip have not grown as far as they may."""
+        """Which fronts (k,) with a tip have not reached the largest growth."""
         return self.rule.free(self._sofar.length[found.front])
 
     def _growing(self, found: Intensities) -> Bools:
@@ -154,44 +157,44 @@ class GrowingCracks(Effect):
         return self.rule.growing(found.share, self._sofar.length[found.front])
 
     def event(self, view: "View") -> Event | None:
-        """Ask for new pieces where tips have reached their toughness, else for a new crack."""
+        """Return the event of new segments at critical tips, else of a nucleus."""
         found = self.intensities(view.state)
         rows = np.flatnonzero(self._growing(found))
         geometry = self._setup.geometry
         if not len(rows):
-            return self._beginnings.event(view.state, self.held)
+            return self._nucleation.event(view.state, self.held)
         grown = found.take(rows)
         self._sofar = self._sofar.seen(grown.shut)
-        cracks, what = self._laid(self._led(grown, view.state))
+        cracks, what = self._extended(self._with_parallel_stress(grown, view.state))
         return Event(replace(geometry, cracks=cracks), what, held=self.held)
 
-    def _led(self, found: Intensities, state: State) -> Intensities:
-        """Return fronts with the kinks that the parallel stress leaves, where the scene asks."""
+    def _with_parallel_stress(self, found: Intensities, state: State) -> Intensities:
+        """Return fronts with kinks corrected for the parallel stress, if the scene asks for it."""
         if not self._table.parallel_stress:
             return found
         behind, kink = self.rule.increment / 2, found.kink
-        acting = self._measured.pushes(state), self._measured.stresses
+        acting = self._measured.applied_forces(state), self._measured.stresses
         stress = parallel_stress(self._setup.model, state, found.tip, behind, *acting)
-        angle = at_end_of_piece(
+        angle = kink_without_end_shear(
             kink.angle, found.opening, found.sliding, stress, self.rule.increment
         )
         return replace(found, kink=replace(kink, angle=angle))
 
-    def _laid(self, found: Intensities) -> tuple[tuple[Floats, ...], str]:
-        """Polylines with new pieces at all fronts ``found``, and what happens, in words."""
+    def _extended(self, found: Intensities) -> tuple[tuple[Floats, ...], str]:
+        """Polylines with new segments at all fronts ``found``, and what happened, in words."""
         cut, cracks = self._setup.model.cut, self._setup.geometry.cracks
-        ways = found.front, found.tip, found.kink.angle
-        laid = advanced(cut, cracks, self._fronts, *ways, self.rule.increment)
+        fronts = found.front, found.tip, found.kink.angle
+        lines = extended_lines(cut, cracks, self._fronts, *fronts, self.rule.increment)
         names = ", ".join(self._fronts.name[one] for one in found.front)
-        return laid, f"cracks grew at {names}"
+        return lines, f"cracks grew at {names}"
 
     @abstractmethod
     def follow(self, change: "Change") -> "GrowingCracks":
-        """Return the effect on the new geometry, with what its fronts have gained."""
+        """Return the effect on the new geometry, with the growth of its fronts."""
 
     @classmethod
     def in_place_of(cls, other: Effect, change: "Change") -> Self:
-        """See `Effect.in_place_of`: tips are where they are, and no force holds new faces."""
+        """See `Effect.in_place_of`: fronts stay where they are; no tractions are released."""
         assert isinstance(other, GrowingCracks)
         return cls(change.setup, other._grown_so_far(change))
 
@@ -205,16 +208,16 @@ class GrowingCracks(Effect):
         return CrackFaces.of(self._setup.model)
 
     @cached_property
-    def _spots(self) -> MaterialPoints:
-        """Tips of the fronts that have one."""
+    def _tip_points(self) -> MaterialPoints:
+        """The tips as material points."""
         model, tip = self._setup.model, self._measured.tip
         tips = model.cut.tips
         return material_points(model.manifold, tips.element[tip], tips.point[tip])
 
     def outputs(self, state: State) -> Mapping[str, Quantity]:
-        """Faces of the cracks and their tips, where they are in a state."""
+        """Return crack faces and tips at their places in a state."""
         found = self.intensities(state)
-        place = self._spots.place(state.frames, state.deformation)
+        place = self._tip_points.place(state.frames, state.deformation)
         return {
             **self._faces.quantities(state),
             "tip": Quantity("tips", place, "m", SPOT),
@@ -222,21 +225,22 @@ class GrowingCracks(Effect):
         }
 
     def history(self, state: State) -> Mapping[str, float]:
-        """Length and opening of cracks, place, growth and intensities of fronts, energy (J).
+        """Return length and opening of cracks, place, growth and intensity factors of fronts.
 
-        The opening is the largest between the faces of a crack, the energy what growth took.
+        Also the whole growth (m) and the fracture energy (J). The opening is the largest along a
+        crack.
         """
         found = self.intensities(state)
         cracks = self._setup.geometry.cracks
         row = {"growth": float(self._sofar.length.sum()), "energy": self._sofar.energy}
         row |= self._faces.row(self._lines, cracks, state)
-        row |= self._beginnings.history(state)
+        row |= self._nucleation.history(state)
         row |= self._fronts.history(cracks, self._setup.origin, self._sofar.length)
         row |= found.row(self._fronts.name)
         return {key: float(value) for key, value in row.items()}
 
     def carried(self) -> tuple[Any, ...]:
-        """How far each front has grown (m), what that took (J), and how far tips were shut."""
+        """Growth of each front (m), its fracture energy (J), and the largest -K_I / |K|."""
         return self._sofar.length, self._sofar.energy, self._sofar.shut
 
     def carry(self, carried: tuple[Any, ...]) -> None:
@@ -246,4 +250,4 @@ class GrowingCracks(Effect):
     def forget(self) -> None:
         """See `Effect.forget`."""
         self._measured.forget()
-        self._beginnings.forget()
+        self._nucleation.forget()

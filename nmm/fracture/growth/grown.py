@@ -1,4 +1,4 @@
-"""How far fronts have grown, and what that took."""
+"""How far crack fronts have grown, and the fracture energy that it took."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -15,16 +15,16 @@ from nmm.fracture.toughness import Toughness
 
 @dataclass(frozen=True)
 class GrownSoFar:
-    """What growth has been.
+    """Growth since the start of the run.
 
     Attributes
     ----------
     length
         (n,) how far each front has grown (m).
     energy
-        That all of them took (J).
+        Fracture energy of the whole growth (J).
     shut
-        Largest of -K_I over |K| at which any has grown.
+        Largest ratio -K_I / |K| at which a front has grown.
     """
 
     length: Floats
@@ -32,22 +32,24 @@ class GrownSoFar:
     shut: float = 0.0
 
     def seen(self, shut: float) -> "GrownSoFar":
-        """Return it with tips that grow where they are so far pressed shut."""
+        """Return the same with the ratio -K_I / |K| ``shut`` of tips that are about to grow."""
         return replace(self, shut=max(self.shut, shut))
 
     def after(
         self, model: Model, fronts: CrackFronts, lines: Sequence[Sequence[Floats]], rule: Toughness
     ) -> "GrownSoFar":
-        """Return both where cracks have grown.
+        """Return the growth after a change of the cracks.
 
         Parameters
         ----------
         model
-            Before.
+            The model before the change.
         fronts
-            After.
+            The fronts after the change.
         lines
-            Polylines before and after.
+            The polylines before and after the change.
+            rule
+            Toughness of the material.
         """
         gained = fronts.gained(*lines)
         grown = np.flatnonzero(gained > 0)

@@ -1,4 +1,4 @@
-"""What cracks cannot grow by, told before anything runs."""
+"""Checks of crack growth and nucleation, before the run starts."""
 
 from typing import TYPE_CHECKING
 
@@ -12,20 +12,20 @@ if TYPE_CHECKING:
 
 
 def refuse(setup: Setup, tips: Ints) -> None:
-    """Refuse scenes without anything to grow, and what cannot carry the growth.
+    """Refuse scenes in which no crack can grow, and formulations that cannot carry the growth.
 
     Parameters
     ----------
     tips
-        (n,) number of the tip of each front; -1 where it has none.
+        (n,) number of the tip of each front; -1 where there is none.
 
     Raises
     ------
     SceneError
-        No crack that ends inside a block, or a domain about tips that is less than a cell.
+        No crack ends inside a block, or the domain about tips is smaller than a cell.
     FormulationError
-        A cover whose tips carry no functions, answers that no factor scales, or matter that is not
-        linear.
+        Tips without tip functions, control by toughness with finite rotations, or nonlinear
+        material.
     """
     scene, model = setup.scene, setup.model
     place = scene.source.place("fracture")
@@ -57,14 +57,14 @@ def refuse(setup: Setup, tips: Ints) -> None:
 
 
 def refuse_nucleation(setup: Setup, nuclei: "Nuclei") -> None:
-    """Refuse covers on which no crack can begin, and means over lines that no body holds.
+    """Refuse covers on which no crack can nucleate, and lines of the mean that fit into no body.
 
     Raises
     ------
     FormulationError
-        A cover that carries no functions of tips.
+        A cover without tip functions.
     SceneError
-        A length that is too large.
+        The length of the mean is too large.
     """
     cover, place = setup.formulation.cover, setup.scene.source.place("fracture", "nucleation")
     plain = cover.enrichment is not None and not cover.enrichment.tips
@@ -81,8 +81,8 @@ def refuse_nucleation(setup: Setup, nuclei: "Nuclei") -> None:
 
 
 def short_nuclei(setup: Setup, rule: "NucleationRule") -> str:
-    """Say what is wrong with cracks that begin so short; empty where nothing is."""
-    size, length = setup.formulation.cover.finest, rule.crack_length or rule.tough
+    """Return a warning about nuclei that are too short, in words; empty where there is none."""
+    size, length = setup.formulation.cover.finest, rule.crack_length or rule.critical_length
     said = []
     if size is not None and min(length, rule.length) < size * (1 - 1e-9):
         said.append(
@@ -90,9 +90,9 @@ def short_nuclei(setup: Setup, rule: "NucleationRule") -> str:
             "with half a cell means beside a hole are 5 to 9 % too low, intensities up to 5 % off, "
             "and tips may carry no functions; from a cell on 1 to 2 % and 0.6 %"
         )
-    if length < rule.tough * (1 - 1e-9):
+    if length < rule.critical_length * (1 - 1e-9):
         said.append(
             f"cracks begin {length:g} m long: under even stress they free less than their faces "
-            f"take by the toughness, from {rule.tough:.3g} m on as much"
+            f"take by the toughness, from {rule.critical_length:.3g} m on as much"
         )
     return "; ".join(said)

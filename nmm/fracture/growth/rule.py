@@ -1,4 +1,4 @@
-"""When cracks grow, which way and by how much: what ``[fracture]`` says."""
+"""The growth rule of ``[fracture]``: when cracks grow, in which direction and by how much."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -13,30 +13,30 @@ from nmm.fracture.toughness import Toughness
 if TYPE_CHECKING:
     from nmm.scene.tables.fracture.table import FractureTable
 
-# Part of the toughness by which a front that is critical may fall short of it.
+# Share of the toughness by which a critical front may fall short of it.
 ROUNDING = 1e-6
 
 
 @dataclass(frozen=True)
 class GrowthRule:
-    """How cracks grow.
+    """Rule of crack growth.
 
     Attributes
     ----------
     criterion, toughness
-        Which way, and when.
+        In which direction cracks grow, and when.
     increment
-        Length of a new piece (m).
-    most
-        Growth of a front at which it stops (m); infinite without.
+        Length of a new segment (m).
+    max_growth
+        Largest growth of a front (m); infinite without a limit.
     together
-        Fronts that fall short of their toughness by up to this part of it grow with a critical one.
+        Fronts that fall short of their toughness by up to this share grow with a critical one.
     """
 
     criterion: Criterion
     toughness: Toughness
     increment: float
-    most: float
+    max_growth: float
     together: float
 
     @classmethod
@@ -47,16 +47,16 @@ class GrowthRule:
         toughness = Toughness(table.toughness, table.energy)
         return cls(criterion, toughness, table.increment, most, table.together)
 
-    def shares(self, kink: Kink, stiff: Floats) -> Floats:
-        """Share (n,) of the toughness that fronts have reached, E' being ``stiff`` (Pa)."""
+    def toughness_ratios(self, kink: Kink, stiff: Floats) -> Floats:
+        """Ratio (n,) of equivalent K to K_Ic at fronts of effective modulus E' ``stiff`` (Pa)."""
         return np.asarray(kink.equivalent / self.toughness.intensities(stiff))
 
     def free(self, grown: Floats) -> Bools:
-        """Which fronts (n,) have not grown as far as they may."""
-        return may_grow(grown, self.most)
+        """Which fronts (n,) have not reached the largest growth."""
+        return may_grow(grown, self.max_growth)
 
     def growing(self, share: Floats, grown: Floats) -> Bools:
-        """Which fronts (n,) grow: none before one is critical, then all that nearly are."""
+        """Which fronts (n,) grow: once one is critical, all that nearly are."""
         free = self.free(grown)
         critical = bool((share[free] >= 1 - ROUNDING).any())
         return np.asarray(free & critical & (share >= 1 - max(self.together, ROUNDING)))

@@ -1,4 +1,4 @@
-"""How far tips have run into their next pieces, and until when they run through the last ones."""
+"""The motion of running tips: their way into the next segment, and the end of the last one."""
 
 from dataclasses import dataclass, replace
 
@@ -9,20 +9,20 @@ from integration.arrays import Bools, Floats, Ints
 
 @dataclass(frozen=True)
 class RunningTips:
-    """Tips on their way, (n,) fronts.
+    """Running tips, arrays (n,) over the fronts.
 
     Attributes
     ----------
     time
-        To which the ways are known (s).
+        Of the last step (s).
     way
-        How far each has come in the piece that is not cut yet (m).
+        How far each has come in its next segment, which is not cut yet (m).
     speed
-        At that time (m/s); zero where a tip still runs through its last piece.
+        At that time (m/s); zero where a tip still runs through the segment cut last.
     until
-        When each has run through its last piece (s).
+        Time at which each has run through the segment cut last (s).
     fed
-        How far each has run since it divided while twice the fracture energy came in (m).
+        How far each has run since it branched while twice the fracture energy flowed in (m).
     """
 
     time: float
@@ -39,12 +39,12 @@ class RunningTips:
 
     @property
     def arrays(self) -> tuple[float, Floats, Floats, Floats, Floats]:
-        """All of it."""
+        """All attributes."""
         return self.time, self.way, self.speed, self.until, self.fed
 
     def advanced(self, time: float, speed: Floats) -> "RunningTips":
-        """Return the tips at a later time at which their speeds (n,) would be so much (m/s)."""
-        # A tip that is through its piece within the step has the rest of it.
+        """Return the tips at a later time (s) at which the law gives the speeds (n,) (m/s)."""
+        # A tip that ends its segment within the step runs for the rest of the step.
         rest = np.clip(time - np.maximum(self.time, self.until), 0.0, None)
         mean = (speed + np.where(self.until > self.time, speed, self.speed)) / 2
         there = self.until <= time
@@ -53,13 +53,13 @@ class RunningTips:
         )
 
     def fed_by(self, front: Ints, twice: Bools, length: Floats) -> "RunningTips":
-        """Return the tips where fronts (k,) have run on by lengths (k,), fed ``twice`` or not."""
+        """Return the tips after fronts (k,) ran lengths (k,) (m), fed ``twice`` G_c or not."""
         fed = self.fed.copy()
         fed[front] = np.where(twice, fed[front] + length, 0.0)
         return replace(self, fed=fed)
 
     def divided(self, parents: Ints) -> "RunningTips":
-        """Return the tips with branches (k,) that run as their parents; both are fed anew."""
+        """Return the tips with branches (k,) that run like their parents; ``fed`` starts at 0."""
         way, speed, until = (
             np.append(values, values[parents]) for values in (self.way, self.speed, self.until)
         )
@@ -68,16 +68,17 @@ class RunningTips:
         return RunningTips(self.time, way, speed, until, fed)
 
     def begun(self, number: int, speed: float) -> "RunningTips":
-        """Return the tips with so many that begin, at a speed (m/s)."""
+        """Return the tips with so many new ones of a speed (m/s)."""
         way, speeds = np.zeros(number), np.full(number, speed)
         until = np.full(number, -np.inf)
         pairs = ((self.way, way), (self.speed, speeds), (self.until, until), (self.fed, way))
         return RunningTips(self.time, *(np.concatenate(pair) for pair in pairs))
 
     def cut(self, front: Ints, length: Floats) -> tuple["RunningTips", Floats]:
-        """Return the tips where pieces (k,) of a length were cut; and how long each still takes.
+        """Return the tips after segments (k,) were cut, and the times (k,) they still take (s).
 
-        What a tip has come beyond the middle is taken off that time, of short pieces up to half.
+        The duration is the way that is left at the present speed; at least a quarter of the
+        segment.
         """
         way, speed, until = self.way.copy(), self.speed.copy(), self.until.copy()
         fast = np.maximum(speed[front], 1e-300)

@@ -1,1 +1,1 @@
-"""Nucleation: places where cracks may begin, stress along lines from them, the criterion."""
+"""Crack nucleation: candidate places, stress along lines from them, and the criteria."""

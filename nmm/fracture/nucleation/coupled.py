@@ -1,14 +1,15 @@
-"""The coupled criterion: a crack begins where stress and energy both suffice (Leguillon 2002).
+"""The coupled criterion of stress and energy (Leguillon 2002).
 
-Along a line of length ``l`` the mean stress must be the strength, and a crack of that length must
-free what its faces take (finite fracture mechanics: Cornetti, Pugno, Carpinteri and Taylor 2006).
-Both are asked of a ladder of lengths. Where the mean falls and the energy rises with the length,
-they meet at one, which the crack then has.
+A crack of length ``l`` nucleates if the mean stress along it is the tensile strength and its growth
+from nothing frees the fracture energy of its faces (finite fracture mechanics: Cornetti, Pugno,
+Carpinteri and Taylor 2006). Both conditions are evaluated on a set of lengths. Where the mean
+stress falls and the energy rises with the length, they meet at one, which is that of the crack.
 
-What a crack frees follows from the stress where it is not yet: ``K`` of every shorter one by its
-weight function, from the edge of a half plane (Tada, Paris and Irwin 2000) or in a whole plane. At
-notches that is the one of a longer crack which goes on: K is 1, 3 and 8 % less by it than at
-notches of 60, 90 and 120 degrees (Carpinteri, Cornetti, Pugno and Sapora 2010).
+The energy follows from the stress before the crack is there: ``K`` of every shorter crack by its
+weight function, that of an edge crack in a half plane (Tada, Paris and Irwin 2000) or of a crack in
+an infinite plane. At notches it is the weight function of a long crack that extends, by which K is
+1, 3 and 8 % too small at notches of 60, 90 and 120 degrees (Carpinteri, Cornetti, Pugno and Sapora
+2010).
 """
 
 from dataclasses import dataclass
@@ -16,40 +17,42 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools, Floats
-from nmm.fracture.acting_stress import StressOn
+from nmm.fracture.acting_stress import StressField
+from nmm.fracture.nucleation.line_criterion import LineEvaluation, OpeningLines
 from nmm.fracture.nucleation.line_stress import LineStress
-from nmm.fracture.nucleation.reached import LineReach, OpeningLines
-from nmm.fracture.principal import LargestPrincipal
+from nmm.materials.principal_stresses import PrincipalStresses
 
-# Lengths over that which goes with the toughness: stress is taken at each, linear between them, and
-# cracks have those from a quarter on.
+# Lengths over the critical length. Stress is evaluated at each and linear between them; nuclei have
+# those from a quarter on.
 LADDER = np.concatenate([2.0 ** np.arange(-7, -2), 2.0 ** (np.arange(-5, 10) / 3)])
 SHORTEST = 5
-# Gauss points from one length to the next, and over the angle by whose sine a point is within one.
+# Gauss rules from one length to the next, and over the angle whose sine is the place along a crack.
 BETWEEN = np.polynomial.legendre.leggauss(3)
 ROUND = np.polynomial.legendre.leggauss(32)
-# Shares that differ by less are one: the shortest length counts.
+# Relative difference below which ratios are equal: then the shortest length counts.
 ALIKE = 1e-9
 
 
 @dataclass(frozen=True)
 class CoupledCriterion:
-    """A line opens where it has reached both.
+    """Criterion of strength and fracture energy.
 
     Attributes
     ----------
     strength
         Tensile strength (Pa).
-    tough
-        The length that goes with the toughness (m), see `mean_length`.
+    critical_length
+        The length that follows from toughness and strength (m), see `mean_length`.
     """
 
     strength: float
-    tough: float
+    critical_length: float
 
-    def reached(self, along: LineStress, stress: StressOn, lines: OpeningLines) -> LineReach:
-        """See `LineCriterion.reached`."""
-        far, body = self.tough * LADDER[-1] * lines.way, lines.body
+    def evaluate(
+        self, along: LineStress, stress: StressField, lines: OpeningLines
+    ) -> LineEvaluation:
+        """See `LineCriterion.evaluate`."""
+        far, body = self.critical_length * LADDER[-1] * lines.way, lines.body
         ladder = LADDER / LADDER[-1]
         ahead, known = along.at(stress, lines.point, far, body, ladder)
         behind, inside = ahead.copy(), lines.inside
@@ -58,7 +61,9 @@ class CoupledCriterion:
         known[inside] &= there
         known = np.logical_and.accumulate(known, axis=1)
         mean = np.einsum("ln,kni->kli", MEANS, (ahead + behind) / 2)
-        pulled = LargestPrincipal.of(mean.reshape(-1, 3)).size.reshape(known.shape) / self.strength
+        pulled = (
+            PrincipalStresses.of(mean.reshape(-1, 3)).larger.reshape(known.shape) / self.strength
+        )
         normal = np.stack([-lines.way[:, 1], lines.way[:, 0]], axis=1)
         across = [np.einsum("kni,ki->kn", one, _across(normal)) for one in (ahead, behind)]
         freed = self._freed(across[0], across[1], lines)
@@ -67,13 +72,13 @@ class CoupledCriterion:
         low = np.minimum(rung.astype(np.int64), len(LADDER) - 2)
         part = rung - low
         between = (1 - part)[:, None] * mean[rows, low] + part[:, None] * mean[rows, low + 1]
-        length = self.tough * LADDER[low] * (LADDER[low + 1] / LADDER[low]) ** part
-        return LineReach(share, between, length, known[:, SHORTEST])
+        length = self.critical_length * LADDER[low] * (LADDER[low + 1] / LADDER[low]) ** part
+        return LineEvaluation(share, between, length, known[:, SHORTEST])
 
     def _freed(self, ahead: Floats, behind: Floats, lines: OpeningLines) -> Floats:
-        """Root of what cracks (k, n) of all lengths free, over that of what their faces take.
+        """Square root of freed over fracture energy (k, n) of cracks of all lengths.
 
-        Stresses (k, n) across the line are those at all lengths, ahead and behind.
+        ``ahead`` and ``behind`` (k, n) are the stresses across the line at all lengths (Pa).
         """
         notch = np.maximum(ahead @ NOTCH.T, 0.0) ** 2
         edge = np.where(lines.notched[:, None], notch, np.maximum(ahead @ EDGE.T, 0.0) ** 2)
@@ -84,14 +89,15 @@ class CoupledCriterion:
 
 
 def _across(normal: Floats) -> Floats:
-    """Rows (k, 3) that give the stress across planes from stresses [xx, yy, xy]."""
+    """Rows (k, 3) that give the normal stress on planes from stresses [xx, yy, xy]."""
     return np.stack([normal[:, 0] ** 2, normal[:, 1] ** 2, 2 * normal[:, 0] * normal[:, 1]], axis=1)
 
 
 def _largest(pulled: Floats, freed: Floats, known: Bools) -> tuple[Floats, Floats]:
-    """Largest share (k,) that both have reached at one length, and its place on the ladder.
+    """Largest ratio (k,) that both conditions reach at one length, and the number of that length.
 
-    Between two lengths at which now one, now the other is smaller, both are taken as linear.
+    Where the smaller of both changes between two lengths, both are interpolated linearly, and the
+    number (k,) is not whole.
     """
     rung = np.arange(len(LADDER), dtype=float)
     gap = freed - pulled
@@ -110,7 +116,7 @@ def _largest(pulled: Floats, freed: Floats, known: Bools) -> tuple[Floats, Float
 
 
 def _means() -> Floats:
-    """Means (n, n) over all lengths of what is known at them."""
+    """Matrix (n, n) from values at all lengths to the means up to each."""
     here = np.eye(len(LADDER))
     before = np.concatenate([here[:1], here[:-1]])
     pieces = np.diff(LADDER, prepend=0.0)[:, None] * (here + before) / 2
@@ -118,9 +124,10 @@ def _means() -> Floats:
 
 
 def _intensities() -> tuple[Floats, Floats, Floats, Floats, Floats]:
-    """Rows (a, n) that give K of cracks between all lengths, and the steps (a,) between them.
+    """Rows (a, n) that give K of cracks from stresses at all lengths, and quadrature weights (a,).
 
-    Of one from an edge, the even and odd parts of one both ways in a plane, one that goes on.
+    For an edge crack, for the even and the odd part of the stress on a crack in a plane, and for a
+    long crack that extends.
     """
     start = np.append(0.0, LADDER[:-1])
     half = (LADDER - start) / 2

@@ -1,4 +1,4 @@
-"""Stress along straight lines through the material of one body."""
+"""Stress along straight lines through one body each."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -9,9 +9,9 @@ import shapely
 from integration.arrays import Bools, Floats, Ints
 from integration.rules import PointRule
 from nmm.assembly.model import Model
-from nmm.fracture.acting_stress import StressOn
+from nmm.fracture.acting_stress import StressField
 
-# Points nearer to an element than this share of the domain lie in it.
+# Points nearer to an element than this share of the size of the domain lie in it.
 NEAR = 1e-9
 
 
@@ -22,20 +22,20 @@ class LineStress:
     model: Model
 
     def at(
-        self, stress: StressOn, begin: Floats, way: Floats, body: Ints, shares: Floats
+        self, stress: StressField, begin: Floats, way: Floats, body: Ints, shares: Floats
     ) -> tuple[Floats, Bools]:
-        """Return stresses (k, n, 3) in body axes (Pa), and which points (k, n) lie in their body.
+        """Return stresses (k, n, 3) in body axes (Pa), and which points (k, n) lie in the body.
 
         Parameters
         ----------
         stress
-            That acts.
+            The stress field.
         begin, way
-            (k, 2) where each line begins in the reference place, and from there to its end (m).
+            (k, 2) start of each line in the reference configuration, and the vector to its end (m).
         body
-            (k,) of each; what leaves it has no stress.
+            (k,) body of each line; points outside it have zero stress.
         shares
-            (n,) of the way at which points lie.
+            (n,) places of the points along the line, as shares of its length.
         """
         points, element = self._located(begin, way, body, shares)
         known = element >= 0
@@ -47,19 +47,19 @@ class LineStress:
         return found.reshape(*shape, 3), known.reshape(shape)
 
     def stays(self, begin: Floats, way: Floats, body: Ints, shares: Floats) -> Bools:
-        """Which lines (k,) stay in their body; see `at`."""
+        """Return which lines (k,) stay in their body; see `at`."""
         _, element = self._located(begin, way, body, shares)
         return np.asarray((element.reshape(len(begin), len(shares)) >= 0).all(axis=1))
 
     def _located(
         self, begin: Floats, way: Floats, body: Ints, shares: Floats
     ) -> tuple[Floats, Ints]:
-        """Points (k n, 2) of lines, and the element of each; -1 where it has none."""
+        """Points (k n, 2) of lines, and the element of each; -1 outside the body."""
         points = (begin[:, None] + shares[:, None] * way[:, None]).reshape(-1, 2)
         return points, self._elements(points, np.repeat(body, len(shares)))
 
     def _elements(self, points: Floats, body: Ints) -> Ints:
-        """Element (m,) of a body at each point; -1 where it has none there."""
+        """Element (m,) of a body at each point; -1 outside the body."""
         manifold = self.model.manifold
         point, element = self._tree.query(
             shapely.points(points), predicate="dwithin", distance=self._reach

@@ -1,4 +1,4 @@
-"""Places at which cracks may begin: along the edges of bodies and inside, away from cracks."""
+"""Places at which cracks may nucleate: along the edges of bodies and inside, away from cracks."""
 
 from dataclasses import dataclass
 
@@ -9,24 +9,24 @@ from covers.cutting.cut_cells import CutCells
 from integration.arrays import Bools, Floats, Ints
 from nmm.geometry.geometry import Geometry
 
-# Turn (rad) of an edge from which a vertex is a corner: of polygons round holes they are less.
+# Turn (rad) from which a vertex is a corner; those of polygons that stand for holes are smaller.
 CORNER = 0.35
 
 
 @dataclass(frozen=True)
 class NucleationPlaces:
-    """Middles and ends of the pieces of edges, and middles of elements.
+    """Middles and ends of boundary edges, and centroids of elements.
 
     Attributes
     ----------
     point
-        (k, 2) in the reference place (m).
+        (k, 2) in the reference configuration (m).
     inward
         (k, 2) normal of the edge into the material; zero inside.
     element
-        (k,) in which each lies.
+        (k,) element in which each lies.
     notched
-        (k,) whether a corner that looks into the material is near.
+        (k,) whether a re-entrant corner is near.
     """
 
     point: Floats
@@ -38,9 +38,16 @@ class NucleationPlaces:
     def of(
         cls, cut: CutCells, geometry: Geometry, deep: float, away: float, beside: float
     ) -> "NucleationPlaces":
-        """Return those of a cut: inside from ``deep`` (m) on, ``away`` (m) from cracks.
+        """Return the places of a cut.
 
-        Corners are near that are nearer than ``beside`` (m).
+        Parameters
+        ----------
+        deep
+            Least distance of places inside from the edges (m).
+        away
+            Least distance from cracks (m).
+        beside
+            Distance below which a re-entrant corner is near (m).
         """
         edges = cut.boundary
         along = edges.end - edges.start
@@ -68,17 +75,17 @@ class NucleationPlaces:
         return len(self.point)
 
     def take(self, rows: Ints | Bools) -> "NucleationPlaces":
-        """Return some of them."""
+        """Return the selected places."""
         point, inward = self.point[rows], self.inward[rows]
         return NucleationPlaces(point, inward, self.element[rows], self.notched[rows])
 
     @property
     def inside(self) -> Bools:
-        """Which (k,) lie on no edge."""
+        """Which (k,) lie inside, on no edge."""
         return np.asarray(~self.inward.any(axis=1))
 
 
 def outline(cut: CutCells) -> shapely.MultiLineString:
-    """Return all edges of bodies and faces of cracks."""
+    """Return all boundary edges of bodies, crack faces included."""
     ends = np.stack([cut.boundary.start, cut.boundary.end], axis=1)
     return shapely.MultiLineString(list(ends))

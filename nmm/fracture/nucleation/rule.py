@@ -1,4 +1,4 @@
-"""Where and when cracks begin: what ``[fracture.nucleation]`` says, and lengths that follow."""
+"""The rule of crack nucleation in ``[fracture.nucleation]`` and the lengths of it."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -6,52 +6,52 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.fracture.clear_way import LIGAMENT
-from nmm.fracture.nucleation.reached import LineCriterion, MeanOnLine
+from nmm.fracture.free_length import LIGAMENT
+from nmm.fracture.nucleation.line_criterion import LineCriterion, MeanOnLine
 from nmm.fracture.toughness import Toughness
 
 if TYPE_CHECKING:
     from nmm.scene.tables.fracture.nucleation import NucleationTable
 
-# Places nearer to a crack than so many times the length of the mean, or of the toughness where that
-# is longer, do not count: a tip at its toughness brings the mean there to 0.55 of the strength.
+# Distance from cracks below which none nucleates, in lengths of the mean, or critical lengths where
+# those are longer: at that distance from a tip at K_Ic the mean is 0.55 of the strength.
 AWAY = 1.5
 
 
 @dataclass(frozen=True)
 class NucleationRule:
-    """How cracks begin.
+    """Rule of crack nucleation.
 
     Attributes
     ----------
     strength
         Tensile strength (Pa).
     criterion
-        When a line opens.
+        The criterion for a line to open.
     length
-        Along which stress is averaged (m): from an edge inwards, or both ways from a place inside;
-        where the criterion asks several, that of the toughness.
+        Over which stress is averaged (m): from an edge inwards, or both ways from a place inside.
+        The critical length where the criterion considers several.
     crack_length
-        Of a crack that begins (m), as long both ways inside; None where the criterion says.
-    tough
-        The length that goes with the toughness (m), see `mean_length`.
-    most
-        How many may begin; infinite without a limit.
+        Of a nucleus (m), as long both ways inside; None where it follows from the criterion.
+    critical_length
+        The length that follows from toughness and strength (m), see `mean_length`.
+    max_number
+        Largest number of nuclei; infinite without a limit.
     effective
-        Whether the pressure in the pores helps to open cracks.
+        Whether the pore pressure helps to open cracks.
     """
 
     strength: float
     criterion: LineCriterion
     length: float
     crack_length: float | None
-    tough: float
-    most: float
+    critical_length: float
+    max_number: float
     effective: bool = True
 
     @classmethod
     def of(cls, table: "NucleationTable", toughness: Toughness, stiff: Floats) -> "NucleationRule":
-        """Return the rule of a scene's table where E' is ``stiff`` (n,) (Pa)."""
+        """Return the rule of a table for material of effective moduli E' ``stiff`` (n,) (Pa)."""
         strength = table.tensile_strength
         tough = mean_length(float(toughness.intensities(stiff).max()), strength)
         most = np.inf if table.number is None else table.number
@@ -68,20 +68,21 @@ class NucleationRule:
         return cls(strength, mean, length, crack_length, tough, most, effective)
 
     @property
-    def away(self) -> float:
-        """Distance from cracks below which none begins (m)."""
-        return AWAY * max(self.length, self.tough)
+    def crack_distance(self) -> float:
+        """Distance from cracks below which none nucleates (m)."""
+        return AWAY * max(self.length, self.critical_length)
 
     @property
-    def deep(self) -> float:
-        """Distance from edges from which places count as inside (m)."""
+    def inside_distance(self) -> float:
+        """Distance from edges above which places count as inside (m)."""
         return (1 + LIGAMENT) * self.length
 
 
 def mean_length(toughness: float, strength: float) -> float:
-    """Length (m) over which the mean stress ahead of a tip at K_Ic is the strength.
+    """Length (m) over which the mean stress ahead of a tip at K_Ic equals the tensile strength.
 
-    ``2 L`` with ``L = (K_Ic / f_t)^2 / pi``: the line method of critical distances (Taylor 2007).
-    Under even stress at the strength a crack of that length both ways frees what its faces take.
+    It is ``2 L`` with ``L = (K_Ic / f_t)^2 / pi``: the line method of the theory of critical
+    distances (Taylor 2007). Under uniform stress at the strength, a crack of this half length
+    frees as much energy as its faces take.
     """
     return 2 / np.pi * (toughness / strength) ** 2

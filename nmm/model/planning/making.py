@@ -38,7 +38,7 @@ def _check_finite(plan: Plan) -> None:
     FormulationError
         All of them, one line each.
     """
-    found = [(name, effect.with_axes) for name, effect in plan.effects.items()]
+    found = [(name, effect.turns_with_bodies) for name, effect in plan.effects.items()]
     faults = [
         Fault(
             "[rotation] update",
@@ -67,19 +67,19 @@ def plan_after(plan: Plan, change: "Change") -> Plan:
     new = Plan({}, plan.seconds)
     for name, make in makers.items():
         new.effects[name] = effect = new.timed(name, make)
-        if name not in plan.effects and defines(effect, "put_in"):
-            effect.put_in(change.state)
+        if name not in plan.effects and defines(effect, "join_run"):
+            effect.join_run(change.state)
     new.connected()
     heirs = new.having("take_over")
     if heirs and plan.supports is not None:
         left = plan.supports.left(change, new.stresses)
         for effect in heirs:
             effect.take_over(left)
-    holders = new.having("hold_back")
+    holders = new.having("receive_residual")
     if holders:
         force = out_of_balance(new, change)
         for effect in holders:
-            effect.hold_back(change, force)
+            effect.receive_residual(change, force)
     return new
 
 

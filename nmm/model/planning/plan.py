@@ -54,14 +54,14 @@ class Plan(NamedEffects):
     def connected(self) -> "Plan":
         """Connect effects to the stresses and forces of others; return the plan itself."""
         self.hooks.clear()
-        for effect in self.having("feel_pushes"):
-            effect.feel_pushes([other.pushes for other in self.having("pushes")])
+        for effect in self.having("receive_forces"):
+            effect.receive_forces([other.applied_forces for other in self.having("applied_forces")])
         pores = [effect.pore_pressure_at for effect in self.having("pore_pressure_at")]
-        for effect in self.having("feel_pores") if pores else ():
-            effect.feel_pores(pores)
+        for effect in self.having("receive_pore_pressures") if pores else ():
+            effect.receive_pore_pressures(pores)
         if self.stresses:
-            for effect in self.having("feel"):
-                effect.feel(self.stresses)
+            for effect in self.having("receive_stresses"):
+                effect.receive_stresses(self.stresses)
         return self
 
     @property
@@ -142,9 +142,11 @@ class Plan(NamedEffects):
             for name, effect in self.named("added_mass")
         }
 
-    def felt_energy(self, state: State) -> float:
+    def received_stress_energy(self, state: State) -> float:
         """Return the energy (J) at held edges of stresses that effects add."""
-        return sum(effect.felt_energy(state) for effect in self.having("felt_energy"))
+        return sum(
+            effect.received_stress_energy(state) for effect in self.having("received_stress_energy")
+        )
 
     def added_stress(self, state: State) -> Floats | None:
         """Return the mean stress (E, 3) beyond that of the strain; None where nothing adds any."""
@@ -198,7 +200,7 @@ class Plan(NamedEffects):
     @cached_property
     def bent(self) -> dict[str, Effect]:
         """Effects, by name, whose force is no line in the unknowns of a step."""
-        return {name: one for name, one in self.named("through") if one.bends}
+        return {name: one for name, one in self.named("step_force") if one.nonlinear}
 
     def swelling(self, state: State, end: Instant) -> Floats | None:
         """Return what material points swell by at the end of a step (Q, 1); None where nothing."""
@@ -206,14 +208,14 @@ class Plan(NamedEffects):
         found = [one for one in asked if one is not None]
         return sum(found[1:], start=found[0])[:, None] if found else None
 
-    def through(self, name: str, before: State, after: State, span: Span) -> StepForce:
+    def step_force(self, name: str, before: State, after: State, span: Span) -> StepForce:
         """Return what a bent effect does through a step."""
-        return self.timed(name, partial(self.effects[name].through, before, after, span))
+        return self.timed(name, partial(self.effects[name].step_force, before, after, span))
 
-    def off_line(self, before: State, after: State, increment: Floats, span: Span) -> float:
+    def work_correction(self, before: State, after: State, increment: Floats, span: Span) -> float:
         """Return what the rise of bent forces seems to do in a step and does not (J)."""
-        bent = [one for one in self.having("off_line") if one.bends]
-        return sum(one.off_line(before, after, increment, span) for one in bent)
+        bent = [one for one in self.having("work_correction") if one.nonlinear]
+        return sum(one.work_correction(before, after, increment, span) for one in bent)
 
     def losses(self, before: State, after: State) -> dict[str, float]:
         """Return what each effect took for good in an accepted step (J)."""

@@ -17,7 +17,7 @@ def closed_cracks(run: EndedRun) -> Findings:
     if plan.contact is not None or not run.scene.cracks:
         return
     faces = CrackFaces.of(run.stepper.model)
-    _, opening, sliding = faces.apart(run.state)
+    _, opening, sliding = faces.jumps(run.state)
     known = ROUNDED_DISPLACEMENT * np.abs(faces.left.rows.apply(run.state.deformation)).max(
         initial=0.0
     )

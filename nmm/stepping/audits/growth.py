@@ -1,4 +1,4 @@
-"""What growing cracks free, beside what their toughness takes; and whether their paths swing."""
+"""Audits of crack growth: zigzag paths, nuclei that do not fit, freed against fracture energy."""
 
 import math
 
@@ -6,7 +6,7 @@ from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings, percent
 
 
 def growth(run: EndedRun) -> Findings:
-    """Audit paths of cracks, and the energy of those whose load keeps them at their toughness."""
+    """Audit the paths of cracks, and their energy where the load keeps them at their toughness."""
     cracks, ledger = run.stepper.plan.fracture, run.recorder.ledger
     if cracks is None:
         return
@@ -17,7 +17,7 @@ def growth(run: EndedRun) -> Findings:
         f"the path of a crack swings: pieces turn to and fro by {math.degrees(swing):.0f} degrees",
         "add parallel_stress = true to [fracture], or take shorter pieces",
     )
-    unopened = cracks.unopened(run.state)
+    unopened = cracks.unopened_strength_ratio(run.state)
     yield AuditFinding(
         "nucleation_length",
         unopened,

@@ -42,5 +42,5 @@ def standing(plan: "Plan", before: State, after: State) -> float:
     """
     held = replace(after, time=before.time, load_factor=before.load_factor, history=before.history)
     stress = sum(plan.energy(name, before) - plan.energy(name, held) for name in STRAINING)
-    stress += plan.felt_energy(before) - plan.felt_energy(held)
+    stress += plan.received_stress_energy(before) - plan.received_stress_energy(held)
     return (plan.work(before, held) + stress) / 2

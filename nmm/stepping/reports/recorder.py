@@ -65,7 +65,7 @@ class Recorder:
 
     def freed_by(self, growth: "GrowingCracks") -> float:
         """Energy (J) that growth of cracks freed so far."""
-        return growth.freed_until_now(self.ledger.freed(growth.name), self.ledger.in_store)
+        return growth.energy_freed(self.ledger.freed(growth.name), self.ledger.in_store)
 
     def step(
         self,

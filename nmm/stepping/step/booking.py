@@ -61,14 +61,14 @@ def booked(
     increment: Floats,
     solved: "ContactSolution | None",
     missed: float = 0.0,
-    off_line: float = 0.0,
+    work_correction: float = 0.0,
     driven: float = 0.0,
 ) -> BookedWork | None:
     """Return the work in a step in time, None in statics.
 
     ``missed`` (J) is what the mean force of matter at both ends does beyond what it stores,
-    ``off_line`` what forces of effects seem to do in it and do not (`Effect.off_line`), and
-    ``driven`` what the rise of reactions does on the way of driven supports.
+    ``work_correction`` what forces of effects seem to do and do not (`Effect.work_correction`),
+    and ``driven`` what the rise of reactions does on the way of driven supports.
     """
     terms = equations.inertia
     if terms is None:
@@ -88,7 +88,7 @@ def booked(
         # The matrix is that of inertia and, weighted, of all that is elastic, over the share.
         whole = share * float(increment @ product(equations.matrix, increment))
         elastic = whole - heavy - damped - added
-        beyond += (terms.weight - 0.5) * (elastic / terms.weight - off_line - more)
+        beyond += (terms.weight - 0.5) * (elastic / terms.weight - work_correction - more)
         applied = 0.0 if terms.applied is None else float(increment @ terms.applied)
         late = (terms.weight - 0.5) * (applied + driven)
     work = 0.0

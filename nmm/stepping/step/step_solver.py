@@ -146,7 +146,7 @@ class StepSolver:
         off = driven = 0.0
         if equations.inertia.weight != 0.5:
             span = Span(step, equations.inertia.weight, half=not equations.rule.carries)
-            off = plan.off_line(state, found.state, found.increment, span)
+            off = plan.work_correction(state, found.state, found.increment, span)
             if plan.supports is not None:
                 driven = plan.supports.work_of_rise(state, found.state)
         work = booked(equations, found.increment, found.solved, missed, off, driven)

@@ -81,8 +81,8 @@ def _force(effect: Effect, name: str, state: State, n: int) -> None:
 
 def _work(effect: Effect, name: str, model: Model, state: State, way: Floats) -> None:
     """Compare what the effect gives on a way with its mean force times it."""
-    bends = effect.limited or (defines(effect, "through") and effect.bends)
-    shares = np.linspace(0, 1, PIECES + 1) if bends else np.array([-0.5, 0.5])
+    nonlinear = effect.limited or (defines(effect, "step_force") and effect.nonlinear)
+    shares = np.linspace(0, 1, PIECES + 1) if nonlinear else np.array([-0.5, 0.5])
     places = [strain_only(model, state, share * way) for share in shares]
     given = expected = size = 0.0
     for before, after in pairwise(places):

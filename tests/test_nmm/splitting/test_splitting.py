@@ -7,7 +7,7 @@ import pytest
 
 import nmm
 from nmm.errors import NmmError
-from nmm.splitting.strength import Principal
+from nmm.materials.principal_stresses import PrincipalStresses
 from nmm.testing.resumed.killing import check_same_bytes
 from nmm.testing.resumed.stopping import stopped_after
 
@@ -308,7 +308,7 @@ def test_sub_blocks_split_where_their_joints_are_stronger():
     assert (second[far][:, 1] < 0.05).all()
     # They are those that had the largest principal stress, which was the strength.
     frame = [one for one in found.frames if one.topology == 0][-1]
-    larger = Principal.of(frame.stress).larger
+    larger = PrincipalStresses.of(frame.stress).larger
     assert larger.max() == pytest.approx(2.9e6, rel=1e-2)
     gone = np.abs(first[:, None] - second).sum(axis=2).min(axis=1) > 1e-9
     assert (larger[gone] > 0.99 * larger.max()).all()

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from nmm.materials.principal_stresses import PrincipalStresses
 from nmm.splitting.coulomb import CoulombStrength
-from nmm.splitting.strength import Principal
 from nmm.testing import check_strength
 
 CONCRETE = CoulombStrength(2.9e6, 4.7e6, np.radians(37))
@@ -52,9 +52,9 @@ def test_shear_comes_first_where_it_is_nearer():
 def test_principal_stresses_are_the_eigenvalues():
     rng = np.random.default_rng(1)
     stress = rng.normal(size=(50, 3))
-    found = Principal.of(stress)
+    found = PrincipalStresses.of(stress)
     for (xx, yy, xy), larger, smaller, angle in zip(
-        stress, found.larger, found.smaller, found.direction, strict=True
+        stress, found.larger, found.smaller, found.angle, strict=True
     ):
         values, vectors = np.linalg.eigh([[xx, xy], [xy, yy]])
         assert [smaller, larger] == pytest.approx(values, abs=1e-12)

@@ -1,1 +1,1 @@
-"""What crack tips have in a state: intensities, stress along the crack, which feel the load."""
+"""Crack tips in a state: intensity factors, parallel stress, and which of them are loaded."""

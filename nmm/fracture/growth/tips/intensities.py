@@ -1,4 +1,4 @@
-"""What the tips of growing cracks have in a state, and the moduli of the material about them."""
+"""Intensity factors at the tips of growing cracks, and the moduli of the material about them."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
@@ -13,7 +13,7 @@ from nmm.quantity import Quantity
 
 @dataclass(frozen=True)
 class Intensities:
-    """What the fronts with a tip have in a state.
+    """Intensity factors of the fronts with a tip in a state.
 
     Attributes
     ----------
@@ -22,9 +22,9 @@ class Intensities:
     opening, sliding
         (k,) K_I and K_II (Pa m^1/2).
     stiff
-        (k,) E' of the material about each (Pa).
+        (k,) effective modulus E' of the material about each (Pa).
     kink, share
-        How each would go on, and the share of its toughness that it has reached.
+        Kink that each would grow by, and (k,) equivalent K over K_Ic.
     """
 
     front: Ints
@@ -36,7 +36,7 @@ class Intensities:
     share: Floats
 
     def take(self, rows: Ints) -> "Intensities":
-        """Return those of some rows."""
+        """Return the selected rows."""
         kink = Kink(self.kink.angle[rows], self.kink.equivalent[rows])
         one = (getattr(self, item.name) for item in fields(self) if item.name != "kink")
         front, tip, opening, sliding, stiff, share = (values[rows] for values in one)
@@ -49,12 +49,12 @@ class Intensities:
 
     @property
     def shut(self) -> float:
-        """Largest of -K_I over |K| of any: tips that are pressed shut."""
+        """Largest ratio -K_I / |K| of all tips: above zero where a tip is closed."""
         size = np.hypot(self.opening, self.sliding)
         return float(np.max(-self.opening / np.where(size > 0, size, 1.0), initial=0.0))
 
     def quantities(self) -> dict[str, Quantity]:
-        """What a frame holds of them."""
+        """Return the quantities of the tips for a frame."""
         return {
             "K_I": Quantity("tips", self.opening, "Pa m^0.5"),
             "K_II": Quantity("tips", self.sliding, "Pa m^0.5"),
@@ -63,7 +63,7 @@ class Intensities:
         }
 
     def row(self, names: Sequence[str]) -> dict[str, float]:
-        """What a line of the history holds of them; ``names`` are those of all fronts."""
+        """Return the values for a line of the history; ``names`` are those of all fronts."""
         columns = {"K_I": self.opening, "K_II": self.sliding, "G": self.rate, "share": self.share}
         return {
             f"{names[front]}:{key}": column[number]
@@ -73,7 +73,7 @@ class Intensities:
 
 
 def tip_moduli(model: Model, element: Ints) -> tuple[Floats, Floats]:
-    """Kolosov's constant and E' (Pa) of the material of elements (n,)."""
+    """Kolosov's constant and effective modulus E' (Pa) (n,) of the material of elements (n,)."""
     number = np.zeros(len(element), dtype=np.int64) if model.law is None else model.law[element]
     kappa = np.array([law.kolosov(model.plane) for law in model.laws])[number]
     return kappa, np.asarray(8 * model.elasticity[element, 2, 2] / (kappa + 1))

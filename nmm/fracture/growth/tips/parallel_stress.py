@@ -1,16 +1,16 @@
-"""The stress along a crack at its tip, and what it does to a piece of finite length.
+"""The parallel stress T at a crack tip, and its effect on the kink of a segment of finite length.
 
-A piece of length ``l`` that leaves at an angle ``t`` ends with the shear
+The end of a segment of length ``l`` that kinks by an angle ``t`` has
 
     K_II(t) = cos(t / 2) (K_I sin t + K_II (3 cos t - 1)) / 2 - T sqrt(8 l / pi) sin t cos t
 
-to first order (Cotterell and Rice 1980; Amestoy and Leblond 1992 for the term of the parallel
-stress T). Where T presses, a deviation is driven back, by the more the longer the piece: an angle
-from K_I and K_II alone then overshoots, and the path goes to and fro however short pieces are. The
-angle at whose end no shear is left does not.
+to first order (Cotterell and Rice 1980; Amestoy and Leblond 1992 for the term of T). Where T is
+compressive, it drives a deviation back, the more so the longer the segment: an angle from K_I and
+K_II alone overshoots, and the path zigzags however short segments are. The angle that leaves K_II =
+0 at the end of the segment does not.
 
-T is the stress along the crack less that across it, which is what presses on the faces: a pressure
-that is even in all directions turns nothing.
+T is the stress along the crack minus the stress across it, that is minus the traction on its faces:
+a hydrostatic pressure turns no crack.
 """
 
 from collections.abc import Sequence
@@ -18,15 +18,15 @@ from collections.abc import Sequence
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from nmm.assembly.applied_forces import AppliedForces
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State, material_points
-from nmm.assembly.pushes import Pushes
 from nmm.assembly.stress_points import StressAt
 from nmm.fracture.growth.tips.intensities import tip_moduli
 
-# Halvings that find an angle to rounding.
+# Bisections that find an angle to rounding.
 HALVINGS = 60
-# Forces that lie off the line behind a tip by less than this part of the length act on the faces.
+# Forces off the line behind a tip by less than this share of the length act on the faces.
 ON_LINE = 1e-6
 
 
@@ -35,25 +35,26 @@ def parallel_stress(
     state: State,
     tips: Ints,
     behind: float,
-    pushes: Pushes,
+    pushes: AppliedForces,
     stresses: Sequence[StressAt] = (),
 ) -> Floats:
-    """Return the stress T (k,) along cracks at their tips, less that across them (Pa).
+    """Return the parallel stress T (k,) at crack tips (Pa).
 
-    On the faces K_I strains nothing along the crack, and K_II both the other way, so that the mean
-    strain there is that of T and of the pressure p on the faces; with stresses s that are no
-    strain's, T = E' strain + (1 - nu') p + s_along - nu' s_across.
+    On the faces the strain along the crack that goes with K_I is zero, and that with K_II is of
+    opposite sign on both. So the mean strain of both faces is that of T and of the pressure p on
+    them; with added stresses s that do not follow from the strain,
+    T = E' strain + (1 - nu') p + s_along - nu' s_across.
 
     Parameters
     ----------
     tips
         (k,) numbers among ``model.cut.tips``.
     behind
-        Length over which the strain is taken (m); the crack is straight there.
+        Length behind the tip over which the strain is averaged (m); the crack is straight there.
     pushes
-        Forces on faces, in global axes.
+        Forces on the faces, in global axes.
     stresses
-        Those that are no strain's.
+        Stresses that do not follow from the strain.
     """
     at = model.cut.tips
     kappa, stiff = tip_moduli(model, at.element[tips])
@@ -71,13 +72,24 @@ def parallel_stress(
     return found
 
 
-def at_end_of_piece(
+def kink_without_end_shear(
     angle: Floats, opening: Floats, sliding: Floats, parallel: Floats, length: float
 ) -> Floats:
-    """Return kinks (n,) of pieces at whose ends no shear is left (rad).
+    """Return the kink angles (n,) of segments at whose ends K_II is zero (rad).
 
-    They lie between straight on and the ``angle`` (n,) that intensities alone ask for; those under
-    parallel tension keep it. Where a crack is shut its piece opens all the same, by sliding alone.
+    Each lies between straight ahead and the ``angle`` (n,) of the criterion; with a tensile T the
+    latter stays. A closed crack counts with K_I = 0.
+
+    Parameters
+    ----------
+    angle
+        (n,) kink angles of the criterion (rad).
+    opening, sliding
+        (n,) K_I and K_II (Pa m^1/2).
+    parallel
+        (n,) parallel stresses T (Pa).
+    length
+        Of the segments (m).
     """
     driven, opening = parallel < 0, np.maximum(opening, 0.0)
     part = np.where(driven, -parallel, 0.0) * np.sqrt(8 * length / np.pi)
@@ -89,13 +101,15 @@ def at_end_of_piece(
     low, high = np.zeros_like(angle), angle.copy()
     for _ in range(HALVINGS):
         middle = (low + high) / 2
-        # Straight on the shear is that of the tip.
+        # Straight ahead K_II is that of the tip.
         before = np.sign(shear(middle)) == np.sign(sliding)
         low, high = np.where(before, middle, low), np.where(before, high, middle)
     return np.where(driven, high, angle)
 
 
-def _pressure_behind(model: Model, state: State, tip: int, behind: float, pushes: Pushes) -> float:
+def _pressure_behind(
+    model: Model, state: State, tip: int, behind: float, pushes: AppliedForces
+) -> float:
     """Mean pressure (Pa) on both faces within a length behind a tip."""
     tips, manifold = model.cut.tips, model.manifold
     end, way = tips.point[tip], tips.direction[tip]
@@ -115,7 +129,7 @@ def _pressure_behind(model: Model, state: State, tip: int, behind: float, pushes
 
 
 def _of_stresses(stresses: Sequence[Floats], way: Floats, contraction: float) -> float:
-    """Part (Pa) of stresses (2, 3) on both faces that are no strain's."""
+    """Contribution (Pa) of added stresses (2, 3) on both faces."""
     along = np.array([way[0] ** 2, way[1] ** 2, 2 * way[0] * way[1]])
     across = np.array([way[1] ** 2, way[0] ** 2, -2 * way[0] * way[1]])
     weights = along - contraction * across
@@ -123,7 +137,7 @@ def _of_stresses(stresses: Sequence[Floats], way: Floats, contraction: float) ->
 
 
 def _faces_behind(model: Model, tip: int, behind: float) -> tuple[Ints, Floats]:
-    """Return elements (3,) and places (3, 2) of the tip, and on both faces ``behind`` it (m)."""
+    """Return elements (3,) and places (3, 2): at the tip, and on both faces ``behind`` it (m)."""
     tips, edges = model.cut.tips, model.cut.boundary
     end = tips.point[tip]
     place = end - behind * tips.direction[tip]

@@ -102,7 +102,7 @@ class EffectForces:
         if after is None:
             moved = self._kinematics.move(self._model, state, increment)
             after = replace(moved, time=self._end.time, load_factor=self._end.load_factor)
-        return {name: self._plan.through(name, state, after, self._span) for name in self._lines}
+        return {name: self._plan.step_force(name, state, after, self._span) for name in self._lines}
 
     def _beyond(self, pulls: Mapping[str, StepForce]) -> csc_array:
         """Stiffness of effects beyond their matrices in the equations."""

@@ -9,7 +9,7 @@ import nmm
 from integration.arrays import Floats
 from nmm.errors import NmmError
 from nmm.formulation import Formulation, parse_formulation
-from nmm.fracture.growth.advance import advanced
+from nmm.fracture.growth.advance import extended_lines
 from nmm.fracture.growth.fronts import CrackFronts
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
@@ -186,7 +186,7 @@ def grown(cracks: list[Floats], fronts: list[int], angle: float) -> tuple[Floats
     which = np.array(fronts)
     tips = ends.tips(model.cut, cracks)[which]
     assert (tips >= 0).all()
-    return advanced(model.cut, cracks, ends, which, tips, np.full(len(which), angle), 0.1)
+    return extended_lines(model.cut, cracks, ends, which, tips, np.full(len(which), angle), 0.1)
 
 
 @pytest.mark.parametrize(

@@ -156,7 +156,7 @@ def test_the_tangent_of_a_pressure_is_that_of_its_force():
 
     def through(unknowns):
         after = replace(start, deformation=unknowns, load_factor=1.0)
-        return effect.through(start, after, span)
+        return effect.step_force(start, after, span)
 
     slope = (through(bent + way).force - through(bent - way).force) / 2
     np.testing.assert_allclose(-through(bent).stiffness() @ way, slope, atol=1e-12)

@@ -8,10 +8,10 @@ import pytest
 import nmm
 from integration.arrays import Floats
 from integration.polygons import Polygons
+from nmm.assembly.applied_forces import joined
 from nmm.assembly.places import on_edges
-from nmm.assembly.pushes import joined
 from nmm.formulation import parse_formulation
-from nmm.fracture.growth.tips.parallel_stress import at_end_of_piece, parallel_stress
+from nmm.fracture.growth.tips.parallel_stress import kink_without_end_shear, parallel_stress
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
 from nmm.scene.methods.cover_tables import CoverTable
@@ -107,7 +107,7 @@ def test_pressure_in_a_crack_and_stress_from_the_start_count(
     )
     run = nmm.run(parse_scene(scene))
     plan = run.stepper.plan
-    pushes = joined(one.pushes(run.state) for one in plan.having("pushes"))
+    pushes = joined(one.applied_forces(run.state) for one in plan.having("applied_forces"))
     model, tips = run.stepper.model, np.arange(2)
     measured = parallel_stress(model, run.state, tips, 0.05, pushes, plan.stresses)
     assert measured == pytest.approx(np.full(2, expected), abs=0.08 * 4e6)
@@ -117,7 +117,7 @@ def test_a_piece_under_parallel_compression_ends_without_shear() -> None:
     opening, sliding = np.array([1.0, 1.0, 0.3]), np.array([0.2, -0.3, 0.9])
     angle = 2 * np.arctan2(-2 * sliding, opening + np.sqrt(opening**2 + 8 * sliding**2))
     parallel, length = np.array([-4.0, -0.5, -2.0]), 0.02
-    found = at_end_of_piece(angle, opening, sliding, parallel, length)
+    found = kink_without_end_shear(angle, opening, sliding, parallel, length)
     along = parallel * math.sqrt(8 * length / math.pi)
     shear = np.cos(found / 2) / 2 * (opening * np.sin(found) + sliding * (3 * np.cos(found) - 1))
     assert shear == pytest.approx(along * np.sin(found) * np.cos(found), abs=1e-12)
@@ -127,7 +127,7 @@ def test_a_piece_under_parallel_compression_ends_without_shear() -> None:
 
 def test_parallel_tension_leaves_the_kink() -> None:
     angle = np.array([0.3, -1.2])
-    found = at_end_of_piece(
+    found = kink_without_end_shear(
         angle, np.array([1.0, -0.1]), np.array([-0.15, 0.8]), np.array([3.0, 3.0]), 0.1
     )
     assert found == pytest.approx(angle, abs=0)
@@ -136,9 +136,11 @@ def test_parallel_tension_leaves_the_kink() -> None:
 def test_a_piece_of_a_crack_that_is_shut_opens_by_sliding_alone() -> None:
     sliding, parallel = np.array([-1.0]), np.array([-3.0])
     angle = np.arccos(1 / 3) * np.ones(1)
-    shut = at_end_of_piece(angle, np.array([-0.2]), sliding, parallel, 0.02)
-    assert shut == pytest.approx(at_end_of_piece(angle, np.zeros(1), sliding, parallel, 0.02))
-    assert 0 < shut[0] < angle[0]
+    closed = kink_without_end_shear(angle, np.array([-0.2]), sliding, parallel, 0.02)
+    assert closed == pytest.approx(
+        kink_without_end_shear(angle, np.zeros(1), sliding, parallel, 0.02)
+    )
+    assert 0 < closed[0] < angle[0]
 
 
 WING = """

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nmm.fracture.growth.on_the_way import GrowthPath
+from nmm.fracture.growth.growth_path import GrowthPath
 
 
 def passed(length, factor, stored):
@@ -14,7 +14,7 @@ def passed(length, factor, stored):
     return path
 
 
-def over_chords(path):
+def along_secants(path):
     """Return what chords say of a path (J)."""
     _, factor, stored = path.stations.T
     return float(np.sum(np.diff(stored / factor**2) * factor[1:] * factor[:-1]))
@@ -27,10 +27,10 @@ def cantilever(length):
 
 def test_a_double_cantilever_beam_frees_what_its_toughness_takes():
     path = cantilever(0.5 + 0.1 * np.arange(8))
-    found = over_chords(path) + path.beyond_chord()
+    found = along_secants(path) + path.beyond_secant()
     assert found == pytest.approx(1.5 * 0.7, rel=1e-5)
-    assert over_chords(path) == pytest.approx(1.5 * 0.7, rel=0.01)
-    assert over_chords(path) > 1.5 * 0.7 * 1.004
+    assert along_secants(path) == pytest.approx(1.5 * 0.7, rel=0.01)
+    assert along_secants(path) > 1.5 * 0.7 * 1.004
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
@@ -42,7 +42,7 @@ def test_four_lengths_have_it_to_the_fourth_order(sign):
         compliance = 2 * (a + 2 * a**3 / 3 + a**5 / 5)
         factor = sign / (1 + a**2)
         path = passed(a, factor, compliance * factor**2 / 2)
-        errors.append(abs(over_chords(path) + path.beyond_chord() - 1))
+        errors.append(abs(along_secants(path) + path.beyond_secant() - 1))
     assert errors[1] < errors[0] / 12
     assert errors[1] < 2e-5
 
@@ -52,7 +52,7 @@ def test_a_ligament_of_a_bent_beam_frees_its_share_until_nothing_is_left():
     length = 0.1 * np.arange(10)
     left = 0.93 - length
     path = passed(length, left**1.5, left / 2)
-    found = over_chords(path) + path.beyond_chord() + path.to_the_end(0.93)
+    found = along_secants(path) + path.beyond_secant() + path.to_the_end(0.93)
     assert found == pytest.approx(0.93, rel=1e-7)
 
 
@@ -63,7 +63,7 @@ def test_a_station_at_a_short_ligament_does_not_count():
     factor = left**1.5 * np.where(left < 0.05, 1.3, 1.0)
     path = passed(length, factor, left / 2 * (factor / left**1.5) ** 2)
     wrong, right = (
-        over_chords(path) + path.beyond_chord() + path.to_the_end(0.93, short)
+        along_secants(path) + path.beyond_secant() + path.to_the_end(0.93, short)
         for short in (0.0, 0.05)
     )
     assert right == pytest.approx(0.93, rel=1e-7)
@@ -71,9 +71,9 @@ def test_a_station_at_a_short_ligament_does_not_count():
 
 
 def test_the_first_factor_and_one_that_turns_round_have_no_way_between():
-    assert GrowthPath().on(0.5, 2.0, 1.0).beyond_chord() == 0.0
+    assert GrowthPath().on(0.5, 2.0, 1.0).beyond_secant() == 0.0
     turned = passed([0.5, 0.6], [2.0, -1.0], [1.0, 1.0])
-    assert turned.beyond_chord() == 0.0
+    assert turned.beyond_secant() == 0.0
 
 
 def test_where_the_factor_does_not_fall_nothing_is_said_of_the_end():
@@ -85,6 +85,6 @@ def test_where_the_factor_does_not_fall_nothing_is_said_of_the_end():
 def test_a_crack_that_begins_frees_under_the_load_before():
     """U = C L^2 of C = 1 and 3: at L = 2 it frees 8, whatever the load that comes then."""
     path = GrowthPath().on(0.0, 2.0, 4.0).begun_anew()
-    assert path.beyond_chord() == 0.0
+    assert path.beyond_secant() == 0.0
     path = path.on(0.1, 0.5, 0.75)
-    assert (3.0 - 1.0) * 2.0 * 0.5 + path.beyond_chord() == pytest.approx(8.0)
+    assert (3.0 - 1.0) * 2.0 * 0.5 + path.beyond_secant() == pytest.approx(8.0)

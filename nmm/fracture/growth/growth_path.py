@@ -1,12 +1,13 @@
-"""The energy that cracks free between one balance and the next, at their toughness all along.
+"""The energy freed by crack growth between two equilibria, with the crack at its toughness.
 
-With linear matter under loads of one factor L the energy freed by growth da is L^2 g(a) da, where
-g is what a unit of the factor frees. Work along a chord, from one factor to the next, frees L1 L2
-times the integral of g. But the crack was at its toughness between them too: there
-L^2 g is constant, 1 / L goes with the intensity of a unit of the factor, and what is freed is the
-integral of g over the mean of 1 / L^2. The integral of g is the gain of U / L^2, U being stored.
+In a linear material under loads of one factor L, growth by da frees L^2 g(a) da, where g(a) is the
+release rate for L = 1. The work along the secant from one equilibrium to the next frees L1 L2 times
+the integral of g. But between them the crack is at its toughness too: L^2 g is constant there, so
+that the energy freed is the integral of g over the mean of 1 / L^2. The integral of g is the
+increase of U / L^2, with the stored energy U.
 
-The logarithm of L is a cubic through four lengths, two on either side where there are as many.
+Between equilibria log L is interpolated by a cubic in the length, through two of them on either
+side.
 """
 
 from dataclasses import dataclass, field, replace
@@ -16,57 +17,56 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 
-# Gauss points on (-1, 1) between two lengths: ten have a ligament that falls to a fifth to 1e-9.
+# Gauss rule between two equilibria: with ten points a ligament may shrink to a fifth at 1e-9.
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(10)
-# Lengths through which a polynomial goes.
+# Equilibria through which a polynomial goes.
 NODES = 4
 
 
 @dataclass(frozen=True)
 class GrowthPath:
-    """Where cracks were at their toughness.
+    """The equilibria at which cracks were at their toughness.
 
     Attributes
     ----------
     stations
-        (n, 3): how far they had grown (m), the load factor, and the energy stored (J).
+        (n, 3): growth (m), load factor, and stored energy (J) of each equilibrium.
     jumped
-        Load factor and energy stored under which a crack began at once; None without.
+        Load factor and stored energy (J) under which a crack nucleated; None where none did.
     """
 
     stations: Floats = field(default_factory=lambda: np.zeros((0, 3)))
     jumped: tuple[float, float] | None = None
 
     def on(self, length: float, factor: float, stored: float) -> "GrowthPath":
-        """Return the path with one more station."""
+        """Return the path with one more equilibrium."""
         return replace(self, stations=np.append(self.stations, [[length, factor, stored]], axis=0))
 
     def begun_anew(self) -> "GrowthPath":
-        """Return the path of cracks of which another begins under the last load."""
+        """Return the path that starts anew as a crack nucleates under the last load."""
         if not len(self.stations):
             return self
         _, factor, stored = self.stations[-1].tolist()
         return GrowthPath(jumped=(factor, stored))
 
-    def beyond_chord(self, end: float | None = None) -> float:
-        """Energy (J) that was freed on the whole way beyond what chords say.
+    def beyond_secant(self, end: float | None = None) -> float:
+        """Energy (J) freed on the whole path in excess of the secants.
 
-        Towards the ``end`` (m) of a ligament, intensities go with a power of what is left of it:
-        there the logarithm of that is what the cubics run over. Pieces about which the factor
-        changes its sign count as their chords.
+        Where growth ends at a length ``end`` (m), as at the end of a ligament, K follows a power of
+        the ligament, and the cubics are in its logarithm. Intervals near which the load factor
+        changes its sign count with their secant.
         """
         if len(self.stations) < 2:
             return self._beyond_jump
-        beyond = self._freed(end) - self._chords
+        beyond = self._freed(end) - self._secants
         return float(beyond[self._one_sign].sum()) + self._beyond_jump
 
     def to_the_end(self, end: float, short: float = 0.0) -> float:
-        """Energy (J) freed from the last station until bodies part at the length ``end``.
+        """Energy (J) freed from the last equilibrium until bodies part at the length ``end`` (m).
 
-        L^2 g is constant there too: each length frees what it did in the piece before. Stations
-        with less than ``short`` (m) left do not count. What is known now of the end corrects the
-        way before it. Nothing is said where the factor does not fall with the root of what is left
-        at least.
+        L^2 g is constant there too: each length frees as much as in the interval before. Equilibria
+        with a ligament below ``short`` (m) do not count. The path before is corrected for the known
+        ``end``. Zero where the factor falls more slowly than the square root of the ligament.
         """
         length, factor, _ = self.stations.T
         left = end - length
@@ -77,24 +77,24 @@ class GrowthPath:
         known = replace(self, stations=self.stations[: max(2, int((left >= short).sum()))])
         last = known.stations[-2:, 0]
         rest = known._freed(end)[-1] * (end - last[1]) / (last[1] - last[0])
-        found = known._chords.sum() + known.beyond_chord(end) + rest
-        return float(found - self._chords.sum() - self.beyond_chord())
+        found = known._secants.sum() + known.beyond_secant(end) + rest
+        return float(found - self._secants.sum() - self.beyond_secant())
 
     def _freed(self, end: float | None) -> Floats:
-        """Energy (n - 1,) that pieces freed at the toughness (J)."""
+        """Energy (n - 1,) freed in each interval at the toughness (J)."""
         length, factor, stored = self.stations.T
         nearly = np.exp(-2 * self._between(_place(length, end), np.log(np.abs(factor)), end))
         return np.asarray(np.diff(stored / factor**2) / (nearly @ WEIGHTS / 2))
 
     @property
-    def _chords(self) -> Floats:
-        """Energy (n - 1,) that pieces freed along chords (J)."""
+    def _secants(self) -> Floats:
+        """Energy (n - 1,) freed in each interval along the secant (J)."""
         _, factor, stored = self.stations.T
         return np.asarray(np.diff(stored / factor**2) * factor[1:] * factor[:-1])
 
     @property
     def _beyond_jump(self) -> float:
-        """Energy (J) that a crack frees beyond the chord if it begins under the load before."""
+        """Energy (J) in excess of the secant of a crack that nucleates under the last load."""
         if (
             self.jumped is None
             or not len(self.stations)
@@ -106,7 +106,7 @@ class GrowthPath:
 
     @cached_property
     def _window(self) -> Ints:
-        """Stations (n - 1, m) through which the polynomial of each piece goes."""
+        """Equilibria (n - 1, m) through which the polynomial of each interval goes."""
         n = len(self.stations)
         m = min(n, NODES)
         first = np.clip(np.arange(n - 1) - 1, 0, n - m)
@@ -118,7 +118,7 @@ class GrowthPath:
         return np.asarray((sign == sign[:, :1]).all(axis=1))
 
     def _between(self, x: Floats, y: Floats, end: float | None) -> Floats:
-        """Values (n - 1, g) at the Gauss points of each piece (Lagrange's form)."""
+        """Values (n - 1, g) at the Gauss points of each interval by Lagrange interpolation."""
         length = self.stations[:, 0]
         where = _place(length[:-1, None] + (1 + POINTS) / 2 * np.diff(length)[:, None], end)
         nodes = x[self._window]
@@ -134,5 +134,5 @@ class GrowthPath:
 
 
 def _place(length: Floats, end: float | None) -> Floats:
-    """What the cubics run over."""
+    """The variable of the cubics: the length, or the logarithm of what is left to ``end``."""
     return length if end is None else np.log(end - length)

@@ -1,17 +1,21 @@
-"""How far a new piece of a crack goes: to what it meets, or would end just short of."""
+"""The length of a new crack segment: up to the boundary that it meets or would nearly reach."""
 
 import numpy as np
 
 from integration.arrays import Floats
 
-# Part of the growth length up to which a ligament that would be left is cut through.
+# Ligaments shorter than this share of the growth length are cut through.
 LIGAMENT = 0.25
-# Segments that begin nearer to a tip than this part of the growth length are its own faces.
+# Edges that begin nearer to the tip than this share of the growth length are the crack's own faces.
 OWN = 1e-6
 
 
-def clear_length(begin: Floats, way: Floats, start: Floats, end: Floats, length: float) -> float:
-    """Length to the first segment (m, 2) on the way, or the whole where it is far beyond."""
+def free_length(begin: Floats, way: Floats, start: Floats, end: Floats, length: float) -> float:
+    """Return the length (m) of a segment from ``begin`` (2,) in the unit direction ``way`` (2,).
+
+    It ends on the first of the edges from ``start`` to ``end`` (m, 2) that it crosses within
+    ``length`` and a ligament; where there is none, it has the whole ``length`` (m).
+    """
     one, two = start - begin, end - begin
     own = np.minimum(np.hypot(*one.T), np.hypot(*two.T)) < OWN * length
     one, two = one[~own], two[~own]

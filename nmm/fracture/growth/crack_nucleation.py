@@ -1,4 +1,4 @@
-"""Cracks that begin: the rule of a scene on a model, the place that is next, the geometry then."""
+"""Nucleation of cracks by the rule of a scene: where the next one begins, and the event for it."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from nmm.fracture.nucleation.rule import NucleationRule
 
 
-class CrackBeginnings:
-    """Where cracks may begin in the geometry of a setup; nowhere without a rule in its scene."""
+class CrackNucleation:
+    """Nucleation in the geometry of a setup; inactive where its scene has no rule for it."""
 
     def __init__(self, setup: Setup, toughness: Toughness) -> None:
         self._setup = setup
@@ -35,13 +35,13 @@ class CrackBeginnings:
         self._pores: Sequence[PressureAt] = ()
 
     def refuse(self) -> None:
-        """Refuse what `refuse_nucleation` does."""
+        """Raise what `refuse_nucleation` raises."""
         if self._nuclei is not None:
             refuse_nucleation(self._setup, self._nuclei)
 
     @property
     def about(self) -> str:
-        """How cracks begin, in words."""
+        """How cracks nucleate, in words."""
         if self._rule is None:
             return ""
         strength = f"{self._rule.strength:g} Pa"
@@ -54,36 +54,36 @@ class CrackBeginnings:
 
     @property
     def caution(self) -> str:
-        """What spoils cracks that begin so short, in words."""
+        """A warning about nuclei that are too short, in words; empty where there is none."""
         return "" if self._rule is None else short_nuclei(self._setup, self._rule)
 
-    def feel(self, stresses: Sequence[StressAt]) -> None:
-        """Take the stresses that effects add to that of the strain."""
+    def receive_stresses(self, stresses: Sequence[StressAt]) -> None:
+        """See `Effect.receive_stresses`."""
         self._stresses = stresses
 
-    def feel_pores(self, pressures: Sequence[PressureAt]) -> None:
-        """Take the pressures of what fills the pores."""
+    def receive_pore_pressures(self, pressures: Sequence[PressureAt]) -> None:
+        """See `Effect.receive_pore_pressures`."""
         self._pores = pressures
 
     def next(self, state: State) -> "Nucleus | None":
-        """Return the place that is nearest to where a crack begins; kept for the last state."""
+        """Return the place that is nearest to nucleation; cached for the last state."""
         if self._nuclei is None:
             return None
         if self._known is None or self._known[0] is not state.deformation:
             self._known = state.deformation, self._nuclei.nearest(partial(self._opening, state))
         return self._known[1]
 
-    def unopened(self, state: State) -> float:
-        """Largest share of the strength in a state in which no line that is opened fits; else 0."""
+    def unopened_strength_ratio(self, state: State) -> float:
+        """Largest stress over strength where no line for a nucleus fits into a body; else 0."""
         if self._nuclei is None or self.next(state) is not None:
             return 0.0
         return self._nuclei.largest(partial(self._opening, state))
 
     def _opening(self, state: State, rule: PointRule) -> Floats:
-        """Return the stresses (Q, 3) that open cracks: with the pressure in the pores, or all (Pa).
+        """Return the stresses (Q, 3) that open cracks, effective or total by the rule (Pa).
 
-        Wet stone parts at its tensile strength less that pressure, whatever share of it acts on
-        the strain (Jaeger, Cook and Zimmerman 2007, section 6.4).
+        The tensile strength is reached by the total stress plus the whole pore pressure, whatever
+        Biot's coefficient is (Jaeger, Cook and Zimmerman 2007, section 6.4).
         """
         assert self._rule is not None
         found = acting_stress(self._setup.model, state, self._stresses, rule)
@@ -93,18 +93,18 @@ class CrackBeginnings:
         return found
 
     def event(self, state: State, held: bool) -> Event | None:
-        """Ask for a crack where the mean stress has reached the strength."""
+        """Return the event of a new crack where the criterion is met; else None."""
         nucleus = self.next(state)
         if nucleus is None or nucleus.share < 1 - ROUNDING:
             return None
         assert self._nuclei is not None
         geometry, (x, y) = self._setup.geometry, nucleus.point + self._setup.origin
-        number, line = len(geometry.cracks), self._nuclei.laid(nucleus)
+        number, line = len(geometry.cracks), self._nuclei.line_of(nucleus)
         laid = replace(geometry, cracks=(*geometry.cracks, line), nuclei=(*geometry.nuclei, number))
         return Event(laid, f"a crack began at [{x:.6g}, {y:.6g}]", held=held)
 
     def history(self, state: State) -> Mapping[str, float]:
-        """Share of the strength that is reached where it is largest, and that place (m)."""
+        """Return the largest ratio to the strength and its place (m), for the history."""
         nucleus = self.next(state)
         if nucleus is None:
             return {}
@@ -112,12 +112,12 @@ class CrackBeginnings:
         return {"nucleation:share": nucleus.share, "nucleation:x": x, "nucleation:y": y}
 
     def forget(self) -> None:
-        """Drop what is kept for the last state."""
+        """Drop what is cached for the last state."""
         self._known = None
 
 
 def _places(setup: Setup, toughness: Toughness) -> "tuple[NucleationRule | None, Nuclei | None]":
-    """Return the rule of a scene, and where cracks may still begin by it; None without."""
+    """Return the rule of a scene, and the places where cracks may nucleate; None without."""
     table = setup.scene.fracture
     if table is None or table.nucleation is None:
         return None, None
@@ -127,4 +127,6 @@ def _places(setup: Setup, toughness: Toughness) -> "tuple[NucleationRule | None,
     model, geometry = setup.model, setup.geometry
     _, stiff = tip_moduli(model, np.arange(len(model.manifold.elements)))
     rule = NucleationRule.of(table.nucleation, toughness, stiff)
-    return rule, Nuclei.of(model, geometry, rule) if len(geometry.nuclei) < rule.most else None
+    return rule, Nuclei.of(model, geometry, rule) if len(
+        geometry.nuclei
+    ) < rule.max_number else None

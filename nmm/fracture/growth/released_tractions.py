@@ -1,9 +1,9 @@
-"""Faces that a tip is running through: what held them together before is withdrawn evenly.
+"""Gradual release of the tractions on new crack faces.
 
-New faces carry at first the traction that the material had there, so that nothing is struck when a
-crack is cut further. It falls to zero while the tip runs through the piece, and the work that the
-opening faces do against it is what growth takes. Forces come in pairs and keep their direction in
-space, so that momentum stays to rounding, where a piece comes free as well.
+New faces carry at first the traction that the intact material had there, so that cutting a segment
+gives no impulse. The traction falls linearly to zero while the tip runs through the segment, and
+the work of the opening faces against it is the fracture energy. Forces come in pairs of fixed
+direction in space, so that linear momentum is conserved to rounding.
 """
 
 from collections.abc import Sequence
@@ -26,28 +26,28 @@ from nmm.fracture.acting_stress import acting_stress
 if TYPE_CHECKING:
     from nmm.effects.change import Change
 
-# Degree to which tractions are integrated, in the root of the distance from the tip.
+# Degree of the quadrature of tractions in the square root of the distance from the tip.
 TRACTION_ORDER = 8
-# Points nearer to an element than this share of the domain lie in it.
+# Points nearer to an element than this share of the size of the domain lie in it.
 NEAR = 1e-9
 
 
 @dataclass(frozen=True)
-class HeldFaces:
-    """Points on both faces of new pieces, with the forces that held them.
+class ReleasedTractions:
+    """Points on both faces of new segments, with the forces that are being released.
 
     Attributes
     ----------
     model
-        On whose boundary they lie.
+        The model on whose boundary they lie.
     edge
         (m,) edges of the boundary.
     position
         (m, 2) reference places (m).
     force
-        (m, 2) on the material at the start, in global axes (N).
+        (m, 2) forces on the material at the start of the release, in global axes (N).
     begin, span
-        (m,) when it begins to fall (s), and how long it takes to zero (s).
+        (m,) start and duration of the release (s).
     """
 
     model: Model
@@ -58,55 +58,55 @@ class HeldFaces:
     span: Floats
 
     @classmethod
-    def none(cls, model: Model) -> "HeldFaces":
-        """Return no faces."""
+    def none(cls, model: Model) -> "ReleasedTractions":
+        """Return none on a model."""
         pairs, empty = np.zeros((0, 2)), np.zeros(0)
         return cls(model, np.zeros(0, dtype=np.int64), pairs, pairs, empty, empty)
 
     @classmethod
-    def of_arrays(cls, model: Model, arrays: tuple[Any, ...]) -> "HeldFaces":
-        """Return what `arrays` were of."""
+    def of_arrays(cls, model: Model, arrays: tuple[Any, ...]) -> "ReleasedTractions":
+        """Return the tractions from their `arrays`."""
         return cls(model, *arrays)
 
     @property
     def arrays(self) -> tuple[Any, ...]:
-        """All but the model."""
+        """All attributes but the model."""
         return self.edge, self.position, self.force, self.begin, self.span
 
     def __len__(self) -> int:
         return len(self.edge)
 
     def share(self, time: float) -> Floats:
-        """Share (m,) of the forces that is left at a time."""
+        """Share (m,) of the forces that is left at a time (s)."""
         return np.clip(1 - (time - self.begin) / self.span, 0.0, 1.0)
 
     def push(self, state: State, time: float) -> Floats:
-        """Return what is left of the forces at a time, on the unknowns (n,)."""
+        """Return the force (n,) on the unknowns of what is left at a time (s)."""
         if not len(self):
             return np.zeros_like(state.deformation)
         return self._points.push(state, self.share(time)[:, None] * self.force)
 
-    def taken(self, before: State, after: State) -> float:
+    def work_against(self, before: State, after: State) -> float:
         """Work (J) done against the forces in a step."""
         if not len(self):
             return 0.0
         share = (self.share(before.time) + self.share(after.time)) / 2
         return -self._points.work(before, after, share[:, None] * self.force)
 
-    def followed(self, change: "Change") -> "HeldFaces":
-        """Return what is still held, on the new model."""
+    def followed(self, change: "Change") -> "ReleasedTractions":
+        """Return what is left after a change, on the new model."""
         model = change.new
-        left = self._only(self.share(change.state.time) > 0)
-        edge, known = _followed(left, change.parentage.edges, model)
-        return replace(left, model=model, edge=edge)._only(known)
+        left = self._take(self.share(change.state.time) > 0)
+        edge, known = _edges_after(left, change.parentage.edges, model)
+        return replace(left, model=model, edge=edge)._take(known)
 
-    def joined(self, more: "HeldFaces") -> "HeldFaces":
+    def joined(self, more: "ReleasedTractions") -> "ReleasedTractions":
         """Return these and others on the same model."""
         pairs = zip(self.arrays, more.arrays, strict=True)
-        return HeldFaces(self.model, *(np.concatenate(pair) for pair in pairs))
+        return ReleasedTractions(self.model, *(np.concatenate(pair) for pair in pairs))
 
-    def _only(self, chosen: Bools) -> "HeldFaces":
-        return HeldFaces(self.model, *(one[chosen] for one in self.arrays))
+    def _take(self, chosen: Bools) -> "ReleasedTractions":
+        return ReleasedTractions(self.model, *(one[chosen] for one in self.arrays))
 
     @cached_property
     def _points(self) -> MaterialPoints:
@@ -114,23 +114,25 @@ class HeldFaces:
         return material_points(manifold, manifold.boundary.element[self.edge], self.position)
 
 
-def newly_held(change: "Change", tip: Floats, span: Floats, added: Sequence[StressAt]) -> HeldFaces:
-    """Return the new faces of cracks with what held them before.
+def tractions_on_new_faces(
+    change: "Change", tip: Floats, span: Floats, added: Sequence[StressAt]
+) -> ReleasedTractions:
+    """Return the tractions on new crack faces, those that the intact material had there.
 
     Parameters
     ----------
     tip
-        (k, 2) where tips were that have grown (m).
+        (k, 2) places of the grown tips before the change (m).
     span
-        (k,) how long each takes through its piece (s).
+        (k,) duration of the release behind each (s).
     added
-        Stresses of the old model that are no strain's.
+        Stresses of the old model that do not follow from its strain.
     """
     edges, model = change.new.cut.boundary, change.new
     fresh = (edges.crack >= 0) & (change.parentage.edges.main < 0)
     one = np.flatnonzero(fresh & (edges.opposite > np.arange(len(edges))))
     if not len(one):
-        return HeldFaces.none(model)
+        return ReleasedTractions.none(model)
     start, end = edges.start[one], edges.end[one]
     away = np.hypot(*np.moveaxis(((start + end) / 2)[:, None] - tip, -1, 0))
     front = np.argmin(away, axis=1)
@@ -140,10 +142,10 @@ def newly_held(change: "Change", tip: Floats, span: Floats, added: Sequence[Stre
     out = np.repeat(np.stack([along[:, 1], -along[:, 0]], axis=1), q, axis=0)
     pull = _tractions(change, np.repeat(edges.element[one], q), flat, out, added)
     force = model.thickness * weights.ravel()[:, None] * pull
-    # The same points on the edges across, so that forces are pairs to the last digit.
+    # The same points on the opposite edges, so that forces are pairs to the last digit.
     both = np.repeat(np.concatenate([one, edges.opposite[one]]), q)
     twice = np.tile(np.repeat(span[front], q), 2)
-    return HeldFaces(
+    return ReleasedTractions(
         model,
         both,
         np.tile(flat, (2, 1)),
@@ -156,7 +158,7 @@ def newly_held(change: "Change", tip: Floats, span: Floats, added: Sequence[Stre
 def _tractions(
     change: "Change", child: Ints, points: Floats, out: Floats, added: Sequence[StressAt]
 ) -> Floats:
-    """Tractions (m, 2) in global axes that the old field had on places of new elements (m,)."""
+    """Tractions (m, 2) of the old field in global axes, at points of new elements (m,) (Pa)."""
     old, kin = change.old, change.parentage.elements
     near = np.unique(kin.parent[np.isin(kin.child, child)])
     shapes = old.manifold.elements.take(near).to_shapely()
@@ -172,8 +174,8 @@ def _tractions(
     return change.former.frames.to_global(old.manifold.element_body[element], local)
 
 
-def _followed(held: HeldFaces, kin: Relation, model: Model) -> tuple[Ints, Bools]:
-    """Edges (m,) of the new boundary that the points lie on, and whether there is one."""
+def _edges_after(held: ReleasedTractions, kin: Relation, model: Model) -> tuple[Ints, Bools]:
+    """Edges (m,) of the new boundary on which the points lie, and whether there is one (m,)."""
     edges = model.manifold.boundary
     row, pair = np.nonzero(held.edge[:, None] == kin.parent)
     child = kin.child[pair]

@@ -1,4 +1,4 @@
-"""Forces on the matter at places: what the integrals about the tip of a crack must know of them."""
+"""Forces that effects apply to the material, as the integrals about crack tips need them."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -15,20 +15,21 @@ Density = Callable[[Ints, Floats], Floats]
 
 
 @dataclass(frozen=True)
-class Pushes:
-    """Forces within bodies and on faces of cracks; not those on the rest of the boundary.
+class AppliedForces:
+    """Forces within bodies and on crack faces; not those on the rest of the boundary.
 
     Attributes
     ----------
     element
-        (m,) the elements that they act on.
+        (m,) elements on which they act.
     start, end
-        (m, 2) of the part of a face over which each is spread evenly, where it was drawn (m); the
-        same place twice where it acts at a point.
+        (m, 2) ends of the part of a face over which each is spread evenly, in the reference
+        configuration (m); the same place twice for a point force.
     force
-        (m, 2) in global axes (N).
+        (m, 2) forces in global axes (N).
     densities
-        Of forces on the volume: (m, 2) at points (m, 2) of elements (m,), in global axes (N/m3).
+        Body forces: functions of elements (m,) and points (m, 2) that return densities (m, 2) in
+        global axes (N/m3).
     """
 
     element: Ints
@@ -39,18 +40,18 @@ class Pushes:
 
     @classmethod
     def at(cls, element: Ints, position: Floats, force: Floats) -> Self:
-        """Return forces (m, 2) at points (m, 2) within elements (m,)."""
+        """Return point forces (m, 2) at points (m, 2) of elements (m,)."""
         return cls(element, position, position, force)
 
     @classmethod
-    def through(cls, *densities: Density) -> Self:
-        """Return forces on the volume."""
+    def of_densities(cls, *densities: Density) -> Self:
+        """Return body forces alone."""
         none = np.zeros((0, 2))
         return cls(np.zeros(0, dtype=np.int64), none, none, none, densities)
 
     @classmethod
     def on(cls, model: Model, place: Place, force: Floats) -> Self:
-        """Return forces (m, 2) at the points of a place; of edges those on faces of cracks."""
+        """Return forces (m, 2) at the points of a place; of edges, only those on crack faces."""
         if place.edge is None or place.part is None:
             return cls.at(place.elements, place.position, force)
         kept = model.cut.boundary.crack[place.edge] >= 0
@@ -60,21 +61,23 @@ class Pushes:
     def __len__(self) -> int:
         return len(self.element)
 
-    def take(self, index: Ints | Bools) -> "Pushes":
-        """Return some of those at places."""
-        return Pushes(self.element[index], self.start[index], self.end[index], self.force[index])
+    def take(self, index: Ints | Bools) -> "AppliedForces":
+        """Return the selected point forces, without body forces."""
+        return AppliedForces(
+            self.element[index], self.start[index], self.end[index], self.force[index]
+        )
 
 
-def joined(parts: Iterable[Pushes]) -> Pushes:
-    """Return all of several."""
-    some = [Pushes.through(), *parts]
+def joined(parts: Iterable[AppliedForces]) -> AppliedForces:
+    """Return the forces of several."""
+    some = [AppliedForces.of_densities(), *parts]
     element, start, end, force = (
         np.concatenate([getattr(one, name) for one in some])
         for name in ("element", "start", "end", "force")
     )
     densities = tuple(density for one in some for density in one.densities)
-    return Pushes(element, start, end, force, densities)
+    return AppliedForces(element, start, end, force, densities)
 
 
-PushesIn = Callable[[State], Pushes]
-"""The forces in a state."""
+AppliedForcesIn = Callable[[State], AppliedForces]
+"""A function that returns the forces in a state."""

@@ -1,4 +1,4 @@
-"""Which tips feel the load: what they have is more than the error of its integral."""
+"""Loaded tips: those whose intensity factor exceeds the error of the interaction integral."""
 
 from collections.abc import Sequence
 
@@ -10,12 +10,12 @@ from nmm.assembly.motion import State
 from nmm.assembly.stress_points import StressAt
 from nmm.fracture.surroundings import domain_radius
 
-# Intensities of cracks along the load, over the mean stress of the domain and the root of pi times
-# its radius, are 1e-6 to 3e-5 with four to ten cells over half of the crack.
+# K of a crack along the load, which is zero, over sigma sqrt(pi r) with the mean stress and the
+# radius of the domain: computed values are 1e-6 to 3e-5 with four to ten cells over half the crack.
 ERROR = 1e-4
 
 
-def felt(
+def loaded_tips(
     model: Model,
     state: State,
     added: Sequence[StressAt],
@@ -23,9 +23,18 @@ def felt(
     equivalent: Floats,
     radius: float,
 ) -> Ints:
-    """Return which of tips (k,) of ``model.cut.tips`` have an ``equivalent`` K (k,) of their own.
+    """Return the rows of the tips (k,) whose ``equivalent`` K (k,) is not merely numerical error.
 
-    ``added`` are stresses that are no strain's; ``radius`` is that of domains before others cut it.
+    Parameters
+    ----------
+    added
+        Stresses that do not follow from the strain.
+    tip
+        (k,) numbers in ``model.cut.tips``.
+    equivalent
+        (k,) equivalent stress intensity factors (Pa m^1/2).
+    radius
+        Radius of the domains (m), before it is reduced to keep within the crack.
     """
     centre = model.cut.elements.centroids
     stress = model.stress(state)
@@ -40,7 +49,7 @@ def felt(
 
 
 def _in_domain(model: Model, centre: Floats, square: Floats, tip: int, radius: float) -> float:
-    """K (Pa m^1/2) of a crack of half length ``radius`` under the mean stress about a tip."""
+    """K (Pa m^1/2) of a crack of half length ``radius`` (m) under the mean stress about a tip."""
     near = np.hypot(*(centre - model.cut.tips.point[tip]).T) <= radius
     mean = np.average(square[near], weights=model.element_area[near]) if near.any() else 0.0
     return float(np.sqrt(mean * np.pi * radius))
