@@ -183,6 +183,4 @@ def _strain(setup: Setup, space: ScalarSpace) -> ThermalStrain | None:
         place = setup.formulation.source.place("cover", "volumetric")
         found, expected = '"projected" with thermal expansion', '"full"'
         raise SceneError(Fault(place, found, expected, "use degree 1 or 2"))
-    expansion = of_elements(setup, "thermal_expansion")
-    across = of_elements(setup, "poisson_ratio") * (scene.plane == "strain")
-    return ThermalStrain.of(space, model, expansion, across)
+    return ThermalStrain.of(space, model, of_elements(setup, "thermal_expansion"))

@@ -1,7 +1,7 @@
 """The strain that a temperature makes, as a stress that the blocks would have if they were held.
 
-A rise ``t`` strains free material by ``alpha t`` in all directions, in plane strain by
-``(1 + nu) alpha t`` in the plane, for the third direction is held (Timoshenko and Goodier 1951).
+A rise ``t`` strains free material by ``alpha t`` in all directions, and in plane strain by more in
+the plane, ``(1 + nu) alpha t`` where it is alike in all (`nmm.materials.base.Law.free_strain`).
 Held, it has the stress ``- D strain``.
 """
 
@@ -16,7 +16,6 @@ from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats
 from nmm.assembly.matter import Matter
 from nmm.assembly.model import Model
-from nmm.assembly.stress_points import ISOTROPIC
 from nmm.diffusion.field_stress import FieldStress
 from nmm.diffusion.matrices import products
 
@@ -28,7 +27,7 @@ class ThermalStrain(FieldStress):
     Attributes
     ----------
     expansion
-        (E,) strain in the plane for each kelvin (1/K); 0 where laws are not linear.
+        (E, 3) strain in the plane for each kelvin (1/K); 0 where laws are not linear.
     points
         (Q, n) strain in all three directions, of a unit of the temperature's unknowns, at material
         points of laws that are not linear: they answer for what is left of the strain. None where
@@ -39,18 +38,16 @@ class ThermalStrain(FieldStress):
     points: csr_array | None = field(default=None, kw_only=True)
 
     @classmethod
-    def of(cls, space: ScalarSpace, model: Model, expansion: Floats, across: Floats) -> Self:
-        """Make it of a strain (E,) for each kelvin.
-
-        In the plane it is larger by the share ``across`` (E,) where the third direction is held.
-        """
-        points, plane, matter = None, expansion * (1 + across), model.matter
+    def of(cls, space: ScalarSpace, model: Model, expansion: Floats) -> Self:
+        """Make it of a strain (E,) for each kelvin."""
+        free = np.array([law.free_strain(model.plane) for law in model.laws])[model.law]
+        points, plane, matter = None, expansion[:, None] * free, model.matter
         if isinstance(matter, Matter):
             rule = matter.points.rule
             rows = diags_array(expansion[rule.owner]) @ space.values(rule.owner, rule.points)
             points, plane = csr_array(rows), plane.copy()
             plane[rule.owner] = 0.0
-        stress = np.einsum("eij,ej->ei", model.elasticity, plane[:, None] * ISOTROPIC)
+        stress = np.einsum("eij,ej->ei", model.elasticity, plane)
         return cls(space, model, stress, expansion=plane, points=points)
 
     def swelling(self, unknowns: Floats) -> Floats | None:
@@ -64,5 +61,5 @@ class ThermalStrain(FieldStress):
     @cached_property
     def held(self) -> csc_array:
         """(n, n) of material that is held: half its square in the temperature is the energy."""
-        density = self.expansion * (self.stress @ ISOTROPIC)
+        density = (self.expansion * self.stress).sum(axis=1)
         return products(self.space, self.model.thickness * density)

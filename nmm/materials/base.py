@@ -170,12 +170,25 @@ class Law(ABC):
         tangent = np.broadcast_to(matrix, (len(strain), 3, 3))
         return FiniteResponse((stress * strain).sum(axis=1) / 2, stress, tangent)
 
-    def kolosov(self, plane: str) -> float:
-        """Return Kolosov's constant of singular fields; laws that have none give that of nu = 0.
+    def kolosov(self, plane: str) -> float | None:
+        """Return Kolosov's constant of singular fields; None of laws whose fields are others.
 
         ``(3 - nu) / (1 + nu)`` in plane stress, ``3 - 4 nu`` in plane strain.
         """
-        return 3.0
+        return None
+
+    def free_strain(self, plane: str) -> Floats:
+        """Return the strain (3,) in the plane of free matter that swells by 1 in all directions.
+
+        In plane strain it is larger, as the third direction is held (Timoshenko and Goodier 1951).
+        Here it is that of a `stiffness` alike in all directions, by ``1 + nu``; a linear law that
+        has axes defines its own.
+        """
+        held = 0.0
+        if plane == "strain":
+            along, across = self.stiffness(plane)[0, :2]
+            held = float(across / (along + across))
+        return np.array([1 + held, 1 + held, 0.0])
 
     @property
     @abstractmethod

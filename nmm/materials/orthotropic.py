@@ -51,19 +51,30 @@ class Orthotropic(Law):
         flat = solid[:2, :2]
         if plane == "strain":
             flat = flat - np.outer(solid[:2, 2], solid[2, :2]) / solid[2, 2]
-        own = np.zeros((3, 3))
+        own, turn = np.zeros((3, 3)), self._turn
         own[:2, :2], own[2, 2] = np.linalg.inv(flat), self.shear_modulus
-        c, s = np.cos(self.axis_angle), np.sin(self.axis_angle)
-        turn = np.array(
-            [[c * c, s * s, c * s], [s * s, c * c, -c * s], [-2 * c * s, 2 * c * s, c * c - s * s]]
-        )
         whole = turn.T @ own @ turn
         return np.asarray((whole + whole.T) / 2)
+
+    def free_strain(self, plane: str) -> Floats:
+        """See `Law.free_strain`: what is held along axis 3 widens 1 and 2 by their own ratios."""
+        solid, own = self._compliance(), np.array([1.0, 1.0, 0.0])
+        if plane == "strain":
+            own[:2] -= solid[:2, 2] / solid[2, 2]
+        return np.asarray(np.linalg.solve(self._turn, own))
 
     @property
     def modulus(self) -> float:
         """The larger of Young's moduli in the plane (Pa)."""
         return max(self.young_modulus, self.young_modulus_2)
+
+    @property
+    def _turn(self) -> Floats:
+        """Matrix (3, 3) from strains (xx, yy, 2 xy) to those along the axes."""
+        c, s = np.cos(self.axis_angle), np.sin(self.axis_angle)
+        return np.array(
+            [[c * c, s * s, c * s], [s * s, c * c, -c * s], [-2 * c * s, 2 * c * s, c * c - s * s]]
+        )
 
     def _compliance(self) -> Floats:
         """Return strains (3,) along the axes from stresses along them (1/Pa)."""

@@ -100,7 +100,8 @@ def covered(
     """
     regions, laws, plane = geometry.regions, sheet.laws, sheet.plane
     own = np.asarray(regions.material)
-    kappa = np.array([law.kolosov(plane) for law in laws])
+    # Where singular fields are others the functions of tips are those of nu = 0.
+    kappa = np.array([law.kolosov(plane) or 3.0 for law in laws])
     lines, apart, bonded = list(geometry.cracks), geometry.in_pieces, geometry.bonded
     covering = cover_regions(regions, cover, lines, kappa[own], apart, bonded, before)
     of_element = own[covering.manifold.element_region]

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array, diags_array
+from scipy.sparse import bsr_array, csc_array
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
@@ -24,7 +24,7 @@ class EdgeDashpots:
     place
         The points.
     impedance
-        (m, 2) density times speed of pressure and of shear waves (Pa s/m).
+        (m, 2, 2) traction against a velocity, symmetric (Pa s/m).
     area
         (m,) of edge that each point stands for (m2).
     """
@@ -36,30 +36,21 @@ class EdgeDashpots:
     @classmethod
     def of(cls, model: Model, place: Place, ground: Floats | None = None) -> Self:
         """Return those of the material at the edge, or of a ``ground`` (2,) of other impedance."""
-        own = impedances(model, place) if ground is None else np.tile(ground, (len(place), 1))
+        own = impedances(model, place) if ground is None else _of_ground(place, ground)
         return cls(place, own, place.weight * model.thickness)
 
     def tractions(self, velocity: Floats) -> Floats:
         """Tractions (m, 2) in Pa of velocities (2,) or (m, 2), in the reference place."""
-        normal = self.place.normal
-        assert normal is not None
-        across = np.sum(normal * velocity, axis=1)[:, None] * normal
-        along = velocity - across
-        return np.asarray(self.impedance[:, :1] * across + self.impedance[:, 1:] * along)
+        known = np.broadcast_to(velocity, (len(self.area), 2))
+        return np.asarray(np.einsum("mij,mj->mi", self.impedance, known))
 
     def matrix(self, n: int) -> csc_array:
         """Matrix (n, n) of the force against the velocity."""
-        normal = self.place.normal
-        assert normal is not None
         rows = self.place.points.rows.matrix(n)
-        shear = diags_array(np.repeat(self.area * self.impedance[:, 1], 2))
-        more = diags_array(self.area * (self.impedance[:, 0] - self.impedance[:, 1]))
+        blocks = self.area[:, None, None] * self.impedance
         m = len(self.area)
-        pick = csr_array(
-            (normal.ravel(), (np.repeat(np.arange(m), 2), np.arange(2 * m))), shape=(m, 2 * m)
-        )
-        normals = csr_array(pick @ rows)
-        return csc_array(rows.T @ shear @ rows + normals.T @ more @ normals)
+        each = bsr_array((blocks, np.arange(m), np.arange(m + 1)), shape=(2 * m, 2 * m))
+        return csc_array(rows.T @ each @ rows)
 
     def push(self, state: State, traction: Floats) -> Floats:
         """Force (n,) on the unknowns of tractions (m, 2) in global axes."""
@@ -71,9 +62,29 @@ class EdgeDashpots:
 
 
 def impedances(model: Model, place: Place) -> Floats:
-    """Density times the speeds of pressure and shear waves (m, 2) of the material at points."""
+    """Impedances (m, 2, 2) of the material at points against plane waves along the normal.
+
+    The root of density times ``n C n``, Christoffel's matrix: density times the speeds of pressure
+    and shear waves in matter alike in all directions, in other matter those of its own waves.
+    """
+    assert place.normal is not None
+    x, y = place.normal.T
+    zero = np.zeros_like(x)
+    across = np.stack([np.stack([x, zero, y], axis=1), np.stack([zero, y, x], axis=1)], axis=1)
     density, elasticity = model.density[place.elements], model.elasticity[place.elements]
-    return np.sqrt(density[:, None] * elasticity[:, [0, 2], [0, 2]])
+    square = density[:, None, None] * (across @ elasticity @ np.swapaxes(across, 1, 2))
+    # The root of a matrix of two rows, by Cayley and Hamilton.
+    product = np.sqrt(np.linalg.det(square))
+    trace = np.sqrt(np.trace(square, axis1=1, axis2=2) + 2 * product)
+    weighs = np.where(trace > 0, trace, 1.0)[:, None, None]  # without density there is no wave
+    return np.asarray((square + product[:, None, None] * np.eye(2)) / weighs)
+
+
+def _of_ground(place: Place, ground: Floats) -> Floats:
+    """Impedances (m, 2, 2) of ground whose pressure and shear waves have those of ``ground``."""
+    assert place.normal is not None
+    normal = place.normal[:, :, None] * place.normal[:, None, :]
+    return np.asarray(ground[1] * np.eye(2) + (ground[0] - ground[1]) * normal)
 
 
 def ground_of(table: "ViscousBoundaryTable") -> Floats | None:

@@ -13,7 +13,7 @@ from nmm.effects.motion.driven_edges import DrivenEdges
 from nmm.effects.motion.edge_dashpots import EdgeDashpots, ground_of
 from nmm.effects.motion.ground_column import Drive, GroundColumn
 from nmm.effects.motion.record import motions_of
-from nmm.errors import GeometryError
+from nmm.errors import Fault, GeometryError, SceneError
 
 if TYPE_CHECKING:
     from nmm.scene.tables.shaking.boundaries import FreeFieldTable
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 # Linear elements of a column to a piece of the edge between two vertices of the mesh: one beside
 # finite elements, so that waves are as fast in both; beside functions of higher degree so many.
 FINER = 6
+# Share of the shear stiffness beyond which an upright strain shears the ground.
+LEANING = 1e-9
 
 
 @dataclass(frozen=True)
@@ -87,18 +89,34 @@ def _side(setup: Setup, table: "FreeFieldTable") -> FreeField:
     place = edge_place(setup, "free_fields", table, order)
     linear = setup.formulation.cover.highest_degree == 0
     height, element = _layers(place, 1 if linear else FINER)
+    _refuse_leaning(setup, table, model.elasticity[element])
     damping = setup.scene.damping
     factors = (None if damping is None else damping.coefficients) or (0.0, 0.0)
     step = setup.formulation.integrator.fixed_step
     assert step is not None  # others are refused
     columns = []
-    for axis, entry in enumerate((2, 0)):  # shear along x, pressure along y
+    for axis, entry in enumerate((2, 1)):  # shear along x, pressure along y
         modulus = model.elasticity[element, entry, entry]
         base = _base(setup, table, axis, float(model.density[element[0]] * modulus[0]) ** 0.5)
         columns.append(GroundColumn(height, modulus, model.density[element], factors, step, base))
     elasticity = model.elasticity[place.elements]
-    lateral = elasticity[:, 0, 1] / elasticity[:, 0, 0]
+    lateral = elasticity[:, 0, 1] / elasticity[:, 1, 1]
     return FreeField(EdgeDashpots.of(model, place), (columns[0], columns[1]), lateral)
+
+
+def _refuse_leaning(setup: Setup, table: "FreeFieldTable", elasticity: Floats) -> None:
+    """Refuse ground in which waves that go up are neither upright nor level.
+
+    Raises
+    ------
+    SceneError
+        By the line of the free field.
+    """
+    if (np.abs(elasticity[:, 1, 2]) > LEANING * elasticity[:, 2, 2]).any():
+        place = setup.scene.source.of_name("free_fields", table.name, "segment")
+        value, expected = "beside matter with axes that lean", "axes along x and y"
+        remedy = "make axis_angle of its material 0 or 90 deg, or remove the free field"
+        raise SceneError(Fault(place, value, expected, remedy))
 
 
 def _layers(place: Place, finer: int) -> tuple[Floats, Floats]:

@@ -54,6 +54,12 @@ def refuse(setup: Setup, tips: Ints) -> None:
     if model.matter is not None:
         remedy = "use elastic materials and small strain, or remove [fracture]"
         raise FormulationError(Fault(place, model.bent, "elastic matter", remedy))
+    for name, law in zip(scene.materials, model.laws, strict=True):  # a handful of materials
+        if law.kolosov(model.plane) is None:
+            place = scene.source.place("materials", name, "law")
+            value, expected = f'"{scene.materials[name].law}" with [fracture]', "isotropic matter"
+            remedy = 'use law = "elastic", or remove [fracture]: intensities would be wrong'
+            raise SceneError(Fault(place, value, expected, remedy))
 
 
 def refuse_nucleation(setup: Setup, nuclei: "Nuclei") -> None:

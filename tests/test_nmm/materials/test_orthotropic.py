@@ -96,6 +96,30 @@ def test_a_strip_of_wood_lengthens_by_lekhnitskiis_modulus(cover):
     assert run.history["monitor:end:ux"][-1] == pytest.approx(2e6 * soft, rel=1e-6)
 
 
+@pytest.mark.parametrize("degrees", [0.0, 30.0])
+def test_heated_wood_widens_by_what_its_third_axis_held_adds_to_each_other(degrees):
+    """Free in the plane, held across: stress 3 is -E3 a t, strains a t (1 + nu_i3 E3 / Ei)."""
+    third = 'young_modulus_3 = "2 GPa"\npoisson_ratio_13 = 0.2\npoisson_ratio_23 = 0.3\n'
+    heated = third + f'thermal_expansion = 1e-5\nconductivity = 1.0\naxis_angle = "{degrees} deg"'
+    text = SCENE[: SCENE.index("[[loads]]")] + SCENE[SCENE.index("[[monitors]]") :]
+    text = text.replace('axis_angle = "30 deg"', heated).replace('"stress"', '"strain"')
+    text += '[heat]\n[[temperatures]]\nname = "warm"\nblock = "strip"\ntemperature = 10.0\n'
+    run = nmm.run(nmm.parse_scene(text + '[formulation.cover]\ntype = "triangles"\nsize = 0.5\n'))
+    own = 1e-4 * np.array([1 + 0.2 * 2e9 / E1, 1 + 0.3 * 2e9 / E2])
+    c, s = np.cos(degrees * DEGREE), np.sin(degrees * DEGREE)
+    assert run.history["monitor:end:ux"][-1] / 2 == pytest.approx(own @ [c * c, s * s], rel=1e-9)
+    assert np.abs(run.frames[-1].stress).max() < 1e-9 * E2 * 1e-4
+
+
+def test_cracks_that_grow_in_wood_are_refused_by_line():
+    """Found by fields of isotropic matter, intensities were 1.03 to 1.7 times what they are."""
+    text = SCENE + "[fracture]\ntoughness = 1e6\nincrement = 0.1\n"
+    text += '[[cracks]]\nname = "notch"\npoints = [[1, -0.1], [1, 0.5]]\n'
+    text += '[formulation.cover]\ntype = "triangles"\nsize = 0.1\n'
+    with pytest.raises(nmm.errors.SceneError, match=r"wood.toml:4: .*\[fracture\]"):
+        nmm.run(nmm.parse_scene(text, "wood.toml"))
+
+
 def test_ratios_that_give_energy_are_refused():
     with pytest.raises(FormulationError, match="energy is positive"):
         Orthotropic(1e9, 0.9, 2e9, 1e9)

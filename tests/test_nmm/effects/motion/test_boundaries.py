@@ -4,7 +4,13 @@ import numpy as np
 import pytest
 
 import nmm
+from integration.polygons import Polygons
+from nmm.assembly.places import on_segment
+from nmm.effects.motion.edge_dashpots import impedances
 from nmm.errors import GeometryError, SceneError
+from nmm.formulation import Formulation
+from nmm.materials.orthotropic import Orthotropic
+from nmm.model.from_polygons import solid
 from nmm.testing import check_effect_of
 
 # Velocity of a wave going up (m/s), every 5 ms: 0.1 sin^2(pi t / 0.2).
@@ -149,6 +155,45 @@ def test_every_line_of_a_box_between_free_fields_moves_as_the_column(axis):
         along = box.history[f"monitor:{monitor}:u{axis}"]
         assert np.abs(other).max() < 1e-4 * np.abs(along).max()
     assert missing(box) < 1e-8
+
+
+LAYERED = 'law = "orthotropic"\nyoung_modulus_2 = "1.8 GPa"\nshear_modulus = "180 MPa"\n'
+
+
+@pytest.mark.parametrize("axis", ["x", "y"])
+def test_waves_leave_layered_ground_and_free_fields_move_as_it_does(axis):
+    """Upright stiffness is 3.2 times the level one, which stood for both before."""
+    held = "y" if axis == "x" else "x"
+    text = ground(more=LEVEL.replace("{held}", held), axis=axis, duration=0.3)
+    text = text.replace('"450 MPa"\n', '"450 MPa"\n' + LAYERED)
+    ours = [s for s in text.splitlines() if not s.startswith(("density = 2400", "p_v", "s_v"))]
+    velocity, times = surface(nmm.run(nmm.parse_scene("\n".join(ours))), axis=axis)
+    speed = np.sqrt({"x": 180e6, "y": 4.32e9}[axis] / 2000)
+    since = times - 30 / speed
+    # Nothing comes back from below: the free surface moves by twice the wave.
+    wave = np.where((since > 0) & (since < 0.2), 0.2 * np.sin(np.pi * since / 0.2) ** 2, 0.0)
+    assert np.abs(velocity - wave).max() < 0.02 * 0.2
+    box = ground(width=30.0, more=SIDES, axis=axis, duration=0.3)
+    box = nmm.run(nmm.parse_scene(box.replace('"450 MPa"\n', '"450 MPa"\n' + LAYERED)))
+    moved, middle = (surface(box, name, axis)[0] for name in ("left", "middle"))
+    assert np.abs(moved - middle).max() < 1e-3 * np.abs(middle).max()
+
+
+def test_impedances_of_matter_whose_axes_lean_are_those_of_its_own_axes():
+    """An edge along axis 1 of the matter, level and turned by 0.5 rad."""
+    found = []
+    for angle in (0.0, 0.5):
+        turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+        laws = [Orthotropic(450e6, 0.25, 1.8e9, 180e6, angle)]
+        square = np.array([[0, 0], [3, 0], [3, 3], [0, 3]]) @ turn.T
+        cover = Formulation().cover
+        model = solid(Polygons.from_vertices([square]), cover, laws, "strain", density=[2000.0])
+        place = on_segment(model.manifold, np.array([[0.0, 0.0], 3 * turn[:, 0]]))
+        found.append(turn.T @ impedances(model, place)[0] @ turn)
+    np.testing.assert_allclose(found[1], found[0], rtol=1e-12, atol=1e-6)
+    own = Orthotropic(450e6, 0.25, 1.8e9, 180e6).stiffness("strain")
+    expected = np.diag(np.sqrt(2000 * np.array([180e6, own[1, 1]])))
+    np.testing.assert_allclose(found[0], expected, rtol=1e-12, atol=1e-6)
 
 
 def test_a_floating_base_drifts_by_traction_over_impedance():
