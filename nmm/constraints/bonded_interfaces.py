@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
+from covers.cutting.components import components
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
@@ -204,6 +205,17 @@ def _under_stress(setup: Setup, tie: Springs) -> Springs:
     force = interface.area[:, None] * across((a + b)[:, :3] / 2, interface.first.normal)
     anchor = np.asarray(np.linalg.solve(tie.stiffness, force[:, :, None])[:, :, 0], dtype=float)
     return replace(tie, interface=replace(interface, anchor=anchor))
+
+
+def bonded_groups(setup: Setup) -> int:
+    """Return how many groups of bodies nothing that is bonded holds together."""
+    model = setup.model
+    joints = shared_edges(model)
+    _, sprung, glued = _stiffnesses(setup, joints)
+    held = joints.take(sprung | glued)
+    edges, body = model.manifold.boundary, model.manifold.element_body
+    pairs = (body[edges.element[edge]] for edge in (held.edge_a, held.edge_b))
+    return int(components(model.manifold.n_bodies, *pairs).max(initial=-1)) + 1
 
 
 def _stiffnesses(setup: Setup, joints: Joints) -> tuple[Floats, Bools, Bools]:

@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from nmm.constraints.bonded_interfaces import bonded_groups
 from nmm.effects.base import Setup
 from nmm.fracture.growth.growing import GrowingCracks
 from nmm.fracture.growth.grown import GrownSoFar
@@ -29,13 +30,14 @@ class CrackGrowth(GrowingCracks):
     ) -> None:
         super().__init__(setup, sofar)
         self._path = GrowthPath() if path is None else path
-        self._parted = parted
+        self.parted = parted
         # A crack that nucleates frees its energy under the load at which the strength was reached.
         self.at_toughness = self._followed and not setup.geometry.nuclei
 
     def follow(self, change: "Change") -> "CrackGrowth":
         """Return the effect on the new geometry, with the growth of its fronts."""
-        parted = change.new.manifold.n_bodies > change.old.manifold.n_bodies
+        more = change.new.manifold.n_bodies > change.old.manifold.n_bodies
+        parted = self.parted or (more and bonded_groups(change.setup) > bonded_groups(self._setup))
         begun = len(change.setup.geometry.nuclei) > len(self._setup.geometry.nuclei)
         path = self._path.begun_anew() if begun else self._path
         return CrackGrowth(change.setup, self._grown_so_far(change), path, parted)
@@ -54,12 +56,13 @@ class CrackGrowth(GrowingCracks):
         return self._table.control == "toughness"
 
     def energy_freed(self, booked: float, stored: float) -> float:
-        """See `GrowingCracks.energy_freed`; with the last ligament where a body has parted."""
-        if not self._parted or not len(self._path.stations):
+        """See `GrowingCracks.energy_freed`; with the last piece where it left no tip."""
+        if not len(self._path.stations) or self._path.stations[-1, 0] == self._length:
             return booked
         # The energy that the last cut released by itself is booked already.
         let_go = float(self._path.stations[-1, 2]) - stored
-        return booked - let_go + self._path.to_the_end(self._length, self._short)
+        short = self._short if self.parted else None
+        return booked - let_go + self._path.to_the_end(self._length, short)
 
     @property
     def _short(self) -> float:
@@ -74,10 +77,10 @@ class CrackGrowth(GrowingCracks):
 
     def carried(self) -> tuple[Any, ...]:
         """See `GrowingCracks.carried`; with the growth path at the toughness."""
-        return (*super().carried(), self._path.stations, self._path.jumped, self._parted)
+        return (*super().carried(), self._path.stations, self._path.jumped, self.parted)
 
     def carry(self, carried: tuple[Any, ...]) -> None:
         """See `Effect.carry`."""
         *sofar, stations, jumped, parted = carried
         super().carry(tuple(sofar))
-        self._path, self._parted = GrowthPath(np.asarray(stations), jumped), parted
+        self._path, self.parted = GrowthPath(np.asarray(stations), jumped), parted

@@ -40,6 +40,8 @@ class GrowingCracks(Effect):
     """Whether the tractions on new faces are released gradually (`ReleasedTractions`)."""
     at_toughness: bool = False
     """Whether the load keeps cracks at their toughness, so that they free their fracture energy."""
+    parted: bool = False
+    """Whether a piece came free at the toughness: no bond holds it to what it was cut off."""
 
     def __init__(self, setup: Setup, sofar: GrownSoFar | None = None) -> None:
         table = setup.scene.fracture

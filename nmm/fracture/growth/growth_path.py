@@ -61,17 +61,20 @@ class GrowthPath:
         beyond = self._freed(end) - self._secants
         return float(beyond[self._one_sign].sum()) + self._beyond_jump
 
-    def to_the_end(self, end: float, short: float = 0.0) -> float:
-        """Energy (J) freed from the last equilibrium until bodies part at the length ``end`` (m).
+    def to_the_end(self, end: float, short: float | None = 0.0) -> float:
+        """Energy (J) freed from the last equilibrium until no tip is left, at the length ``end``.
 
-        L^2 g is constant there too: each length frees as much as in the interval before. Equilibria
-        with a ligament below ``short`` (m) do not count. The path before is corrected for the known
-        ``end``. Zero where the factor falls more slowly than the square root of the ligament.
+        L^2 g is constant there too: each length frees as much as in the interval before. Where
+        bodies part, equilibria with a ligament below ``short`` (m) do not count, and the path
+        before is corrected for the known ``end``; zero where the factor falls more slowly than the
+        square root of the ligament. With None the crack ends on a hole or on a bonded body.
         """
         length, factor, _ = self.stations.T
         left = end - length
         if len(left) < 2:
             return 0.0
+        if short is None:
+            return float(self._freed(None)[-1] * left[-1] / (length[-1] - length[-2]))
         if not 0 < factor[-1] / factor[-2] < np.sqrt(left[-1] / left[-2]):
             return 0.0
         known = replace(self, stations=self.stations[: max(2, int((left >= short).sum()))])

@@ -44,7 +44,7 @@ def run_growth(
     -------
     The last state and the verdict.
     """
-    growing = _Growing(stepper, recorder, schedule, progress, stepper.model.manifold.n_bodies)
+    growing = _Growing(stepper, recorder, schedule, progress)
 
     def step(at: UnderLoad) -> UnderLoad | RunVerdict:
         found = growing.next(at)
@@ -56,21 +56,20 @@ def run_growth(
 
 @dataclass(frozen=True)
 class _Growing:
-    """Goes from the toughness of one piece to that of the next; ``bodies`` are those at first."""
+    """Goes from the toughness of one piece to that of the next."""
 
     stepper: Stepper
     recorder: Recorder
     schedule: LoadSchedule
     progress: Progress
-    bodies: int
 
     def next(self, at: UnderLoad) -> UnderLoad | RunVerdict:
         """Find the load of the present cracks, and let the critical ones grow; or end."""
-        stepper, fracture = self.stepper, self.stepper.plan.fracture
+        fracture = self.stepper.plan.fracture
         assert fracture is not None
         if self.recorder.steps and not at.changed:
             return self._ended("no crack grows further", at)
-        if stepper.model.manifold.n_bodies > self.bodies:
+        if fracture.parted:
             return self._ended("a piece came free", at)
         attempt = self._at_toughness(at, fracture)
         return attempt if isinstance(attempt, RunVerdict) else self._grown(at, attempt)
