@@ -63,6 +63,7 @@ class ModelContact:
     """
 
     stored_first: float = 0.0
+    _laid: ContactPoints | None = None
 
     def __init__(self, model: Model, parts: ContactParts, start: State) -> None:
         self.laws, self.partners, self.exact = parts.laws, parts.partners, parts.enforcement.exact
@@ -134,7 +135,20 @@ class ModelContact:
             given = self.model, self.laws, stress, self.exact
             points = found_under_stress(points, self.partners.surface(state), *given)
             self.record = replace(self.record, found=found, known=points)
-        self.stored_first = self.laws.energy(self.standing, own_only=self.exact)
+        self._laid = self.standing
+        self.stored_first = self.laws.energy(self._laid, own_only=self.exact)
+
+    def first_work(self, before: State, after: State) -> float:
+        """Half of what forces of springs take that carried something at the start (J).
+
+        Nothing held them then: see `Effect.first_work`.
+        """
+        if self._laid is None:
+            return 0.0
+        from nmm.contact.laws.laid_under_stress import taken_on_way
+
+        surfaces = self.partners.surface(before), self.partners.surface(after)
+        return taken_on_way(self._laid, *surfaces) / 2
 
     def candidates(
         self,

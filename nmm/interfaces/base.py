@@ -9,6 +9,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats
 from nmm.interfaces.history import CUMULATIVE_SLIP, KEPT, History, HistoryColumn
+from nmm.interfaces.passage import Passage
 from nmm.interfaces.response import InterfaceResponse, Traction
 from nmm.registry import Registry
 
@@ -94,6 +95,30 @@ class InterfaceLaw(ABC):
         if "cumulative_slip" in self.columns:
             after["cumulative_slip"] = history["cumulative_slip"] + np.abs(sliding)
         return after
+
+    def dissipated(self, passage: Passage) -> Floats:
+        """Return the energy (m,) that bonds which lose their strength took in a step (J/m2).
+
+        Here it is what `dissipated_by_means` says, right where the step is short. A law that knows
+        what its history took says so.
+        """
+        return self.dissipated_by_means(passage)
+
+    @final
+    def dissipated_by_means(self, passage: Passage) -> Floats:
+        """Return the work (m,) of the mean tractions of both ends less what springs store (J/m2).
+
+        It is what the work of mean loads holds of it, whatever they were within the step.
+        """
+        lifts = [self.rise(history) for history in passage.history]
+        work = sum(passage.pull) / 2 * (passage.gap[1] - passage.gap[0])
+        slipped = passage.slip[1] - passage.slip[0] + passage.sliding
+        work = work + sum(passage.shear) / 2 * slipped
+        for sign, pull, shear, gap, slip, lift in zip(
+            (1, -1), passage.pull, passage.shear, passage.gap, passage.slip, lifts, strict=True
+        ):
+            work = work + sign * (pull * (gap - lift) + shear * slip) / 2
+        return np.asarray(work)
 
     def overload(self, pull: Floats, shear: Floats) -> Floats:
         """Return stress over strength (m,) of intact bonds (Pa); above 1 a bond breaks at once."""

@@ -12,7 +12,9 @@ from nmm.errors import SceneError
 from nmm.interfaces.history import DAMAGE, History, HistoryColumn
 from nmm.interfaces.limits import Limits
 from nmm.interfaces.mohr_coulomb import MohrCoulomb
+from nmm.interfaces.passage import Passage
 from nmm.interfaces.response import InterfaceResponse
+from nmm.interfaces.softening_curve import SofteningCurve
 
 
 @dataclass(frozen=True)
@@ -48,7 +50,7 @@ class Softening(MohrCoulomb):
     def response(self, history: History, stiffness: Floats) -> InterfaceResponse:
         """Return what is left of the strength, and the secant of an open bond."""
         damage = history["damage"]
-        left = self._left(damage)
+        left = self._softens.left(damage)
         strength, crack = left * self.tensile_strength, stiffness * damage * self._widths[-1]
         intact, residual = np.tan(self.friction_angle), np.tan(self.residual_angle)
         limits = Limits(
@@ -77,6 +79,33 @@ class Softening(MohrCoulomb):
         columns = (history["damage"], gap, sliding, stiffness)
         damage[held] = self._damaged(*(column[held] for column in columns))
         return after | {"damage": damage, "bonded": held & (damage < 1)}
+
+    def dissipated(self, passage: Passage) -> Floats:
+        """See `InterfaceLaw.dissipated`: from the damage at both ends, however long the step."""
+        (start, end), opening = passage.history, passage.gap[1]
+        damage, normal = (start["damage"], end["damage"]), passage.stiffness[0]
+        reached = self._damaged(damage[0], opening, np.zeros_like(opening), normal)
+        reached = np.minimum(reached, damage[1])
+        opened = self._softens.by_opening(damage, reached, opening, normal)
+        return opened + self._rubbed(damage, passage)
+
+    def _rubbed(self, damage: tuple[Floats, Floats], passage: Passage) -> Floats:
+        """Energy (m,) that the shear stress took along what was slid, less the work of lifting.
+
+        The stress is the bound, ``left (c + p (tan phi - tan phi_r)) + p tan phi_r``, as it falls
+        with damage, or once it has fallen to what the shear spring carries.
+        """
+        softens, way, pressure = self._softens, np.abs(passage.sliding), passage.pressure
+        residual = pressure * np.tan(self.residual_angle)
+        lost = self.cohesion + pressure * np.tan(self.friction_angle) - residual
+        carried = np.abs(passage.stiffness[1] * (passage.slip[1] + passage.sliding)) - residual
+        at = np.divide(carried, lost, out=np.ones_like(lost), where=lost != 0)
+        left = np.clip(at, softens.left(damage[1]), softens.left(damage[0]))
+        begun = np.clip(softens.damage(left), *damage)
+        within = np.minimum(way, self._slip_width * (damage[1] - begun)) if self.cohesion else way
+        mean = within * softens.mean(begun, damage[1]) + (way - within) * softens.left(damage[1])
+        lifted = self.rise(passage.history[1]) - self.rise(passage.history[0])
+        return np.asarray(lost * mean + residual * way - pressure * lifted)
 
     def _damaged(
         self, damage: Floats, opening: Floats, sliding: Floats, stiffness: Floats
@@ -109,14 +138,14 @@ class Softening(MohrCoulomb):
         return np.asarray(self.curve[0] * self.fracture_energy / self.tensile_strength)
 
     @property
+    def _softens(self) -> SofteningCurve:
+        return SofteningCurve(self._widths, self.curve[1], self.tensile_strength)
+
+    @property
     def _slip_width(self) -> float:
         energy = self.shear_fracture_energy or self.fracture_energy
         assert energy is not None
         return float(self.curve[0][-1] * energy / self.cohesion)
-
-    def _left(self, damage: Floats) -> Floats:
-        widths, share = self.curve
-        return np.asarray(np.interp(damage * widths[-1], widths, share))
 
 
 @dataclass(frozen=True)

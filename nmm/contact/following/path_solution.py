@@ -106,8 +106,11 @@ class PosedPath:
             history[name][free] = column
         after = replace(contacts, history=history)
         sliding = history["plastic_slip"] - contacts.history["plastic_slip"]
-        loss = _loss(self.laws, contacts, after, answer, sliding)
-        told = {"sliding": sliding, "rows": self.rows}
+        iteration = HistoryIteration(self.laws, contacts)
+        iteration.contacts = after
+        loss = iteration.loss(answer, sliding, static=True)
+        between = iteration.beyond_means(answer)
+        told = {"sliding": sliding, "rows": self.rows, "between": between}
         solved = ContactSolution(after, answer, step.iterations, loss, **told)
         if self.mixed is not None:
             solved = self.mixed.told(solved, self.found)
@@ -183,16 +186,3 @@ def _answer(
             f"{why} after {step.iterations} iterations along the path",
         ),
     )
-
-
-def _loss(
-    laws: ContactLaws,
-    before: ContactPoints,
-    after: ContactPoints,
-    answer: StepAnswer,
-    sliding: Floats,
-) -> float:
-    """Energy (J) that friction and softening took in the step."""
-    iteration = HistoryIteration(laws, before)
-    iteration.contacts = after
-    return iteration.loss(answer, sliding, static=True)

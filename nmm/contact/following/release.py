@@ -7,9 +7,8 @@ import numpy as np
 from integration.arrays import Bools
 from nmm.contact.bonds.release import released
 from nmm.contact.bonds.turning import beside
-from nmm.contact.laws.contact_laws import ContactLaws
+from nmm.contact.laws.contact_laws import AT_ENDS, ContactLaws
 from nmm.contact.laws.failing_bonds import break_bonds
-from nmm.contact.laws.history_iteration import ENDED
 from nmm.contact.problem.step_problem import BROKEN
 from nmm.contact.solution.record import ContactRecord, ContactSolution
 
@@ -31,7 +30,7 @@ def let_go(
     freed, lost = gone & contacts.tied, gone & laws.brittle[contacts.interface]
     after, shed = contacts, 0.0
     if freed.any():
-        ended = {name: getattr(solved.answer, name) for name in ENDED}
+        ended = {name: getattr(solved.answer, name) for name in AT_ENDS}
         before = replace(contacts, **ended)
         after, shed = released(before, freed, lost, solved.answer, springs, limits)
     after = break_bonds(laws, after, lost)

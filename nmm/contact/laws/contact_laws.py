@@ -13,10 +13,13 @@ from nmm.contact.points.kept import of_pairs
 from nmm.contact.problem.step_problem import Limits
 from nmm.interfaces.base import InterfaceLaw
 from nmm.interfaces.history import KEPT, History, HistoryColumn
+from nmm.interfaces.passage import Passage
 from nmm.interfaces.response import InterfaceResponse
 
 Springs = tuple[Floats, Floats, Bools]
 """Normal and shear stiffness (m,) in N/m, and which are a law's own."""
+AT_ENDS = ("gap", "slip", "normal_force", "shear_force")
+"""What contacts have at both ends of a step."""
 
 
 @dataclass(frozen=True)
@@ -182,6 +185,30 @@ class ContactLaws:
         stretch = np.where(bonded, pressed_by, np.minimum(pressed_by, 0.0))
         pressed = (normal * stretch**2)[acts | damped].sum()
         return float(pressed + (shear * contacts.slip**2)[acts].sum()) / 2
+
+    def passages(
+        self, before: ContactPoints, after: ContactPoints
+    ) -> Iterator[tuple[InterfaceLaw, Floats, Passage]]:
+        """Yield each law with the areas (m2) of its joints and what they went through in a step."""
+        areas, springs = self._areas(before), self.springs(before)[:2]
+        laws = zip(self.by_law(before), self.by_law(after), strict=True)
+        for (law, index, start), (_, _, end) in laws:
+            area = areas[index]
+            gap, slip, pull, shear = (
+                (getattr(before, name)[index], getattr(after, name)[index]) for name in AT_ENDS
+            )
+            yield (
+                law,
+                area,
+                Passage(
+                    history=(start, end),
+                    gap=gap,
+                    slip=slip,
+                    pull=(pull[0] / area, pull[1] / area),
+                    shear=(shear[0] / area, shear[1] / area),
+                    stiffness=(springs[0][index] / area, springs[1][index] / area),
+                ),
+            )
 
     @cached_property
     def makes_joints(self) -> Bools:

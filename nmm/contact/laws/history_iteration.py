@@ -5,19 +5,22 @@ softening of slope ``h`` against a structure of stiffness ``S`` the changes shri
 iteration: they vanish as long as the structure is stable, and acceleration makes that quick.
 """
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from integration.arrays import Bools, Floats
 from integration.contraction import some
-from nmm.contact.laws.contact_laws import ContactLaws
+from nmm.contact.laws.contact_laws import AT_ENDS, ContactLaws
 from nmm.contact.laws.tension_compression import AsymmetricSprings
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.problem.coulomb import shear_bound
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem, Verdict
 from nmm.frozen import MadeOnce, with_parts
+from nmm.interfaces.base import InterfaceLaw
 from nmm.interfaces.history import History
+from nmm.interfaces.passage import Passage
 from nmm.solvers.anderson import FixedPoint
 
 MOST = 200
@@ -29,8 +32,6 @@ LASTING, SHRUNK = 50, 0.5
 """Changes shrink no more where so many solutions leave more than this share of the least before."""
 AT_LIMIT = 1e-6
 """Shear forces within this share of their limit are at it: rounding of a solution."""
-ENDED = ("gap", "slip", "normal_force", "shear_force")
-"""What contacts have at the end of a solution."""
 
 
 class HistoryIteration:
@@ -139,9 +140,10 @@ class HistoryIteration:
     def loss(self, answer: StepAnswer, sliding: Floats, static: bool) -> float:
         """Energy (J) that friction and softening took in the step.
 
-        In time the force of a step acts all through it. In statics loads grow within a step: what
-        slides from its start does so against the mean of the limits at both ends, what slides later
-        against that at the end. The work of dilation against pressure is not lost.
+        Bonds that soften took what their law says. Elsewhere the force of a step in time acts all
+        through it. In statics loads grow within a step: what slides from its start does so against
+        the mean of the limits at both ends, what slides later against that at the end. The work of
+        dilation against pressure is not lost.
         """
         rubbed = np.abs(answer.shear_force * sliding)
         if self._laws.evolving:
@@ -152,30 +154,25 @@ class HistoryIteration:
         soft = self.softening
         if not some(soft):
             return float(rubbed.sum())
-        before = self._within_strength(soft)
-        ended = {name: getattr(answer, name)[soft] for name in ENDED}
+        taken = (area @ law.dissipated(way) for law, area, way in self._softened(answer))
+        return float(rubbed[~soft].sum() + sum(taken))
+
+    def beyond_means(self, answer: StepAnswer) -> float:
+        """Energy (J) that softening took in the step beyond what mean forces of both ends say."""
+        if not some(self.softening):
+            return 0.0
+        beyond = (
+            area @ (law.dissipated(way) - law.dissipated_by_means(way))
+            for law, area, way in self._softened(answer)
+        )
+        return float(sum(beyond))
+
+    def _softened(self, answer: StepAnswer) -> Iterator[tuple[InterfaceLaw, Floats, Passage]]:
+        """Yield each law with the areas of its bonds that soften, and what these went through."""
+        soft = self.softening
+        ended = {name: getattr(answer, name)[soft] for name in AT_ENDS}
         after = replace(self.contacts.take(soft), **ended)
-        normal = (before.normal_force + after.normal_force) / 2
-        shear = (before.shear_force + after.shear_force) / 2
-        slipped = after.slip - before.slip + sliding[soft]
-        work = normal @ (after.gap - before.gap) + shear @ slipped
-        stored = self._laws.energy(after) - self._laws.energy(before)
-        return float(rubbed[~soft].sum() + work - stored)
-
-    def _within_strength(self, soft: Bools) -> ContactPoints:
-        """Return softening bonds as they begin the step, with the forces of their stretch.
-
-        Those that were laid just now have taken none yet, and may be stretched beyond their
-        strength: what is beyond it was freed as they were laid, and softening has not taken it.
-        """
-        start, limits = self.start.take(soft), self.before.limits
-        share = np.where(start.gap > 0, self.before.open_share[soft], 1.0)
-        stiff, shear = share * self.springs[0][soft], self.springs[1][soft]
-        pull = np.minimum(stiff * start.gap, limits.tension[soft])
-        bound = limits.cohesion[soft] + limits.friction[soft] * np.maximum(-pull, 0.0)
-        along = np.clip(shear * start.slip, -bound, bound)
-        gap, slip = pull / stiff, along / shear
-        return replace(start, normal_force=pull, shear_force=along, gap=gap, slip=slip)
+        return self._laws.passages(self.start.take(soft), after)
 
     def _mean_share(self, answer: StepAnswer) -> Floats:
         """Mean shear force (m,) of a step of statics over that at its end, where contacts slide."""

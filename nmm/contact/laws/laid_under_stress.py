@@ -70,6 +70,17 @@ def found_under_stress(
     return _stretched(points, laws, (force[0], force[1]), acts)
 
 
+def taken_on_way(points: ContactPoints, before: Surface, after: Surface) -> float:
+    """Return the work (J) that forces of points, as they are, take on the way of their sides."""
+    starts, ends = (
+        [surface.at(edge, parameter) for edge, parameter in points.sides]
+        for surface in (before, after)
+    )
+    way = ends[0] - starts[0] - (ends[1] - starts[1])
+    pull, shear = points.normal_force[:, None], points.shear_force[:, None]
+    return float(np.sum((pull * points.normal + shear * tangents(points.normal)) * way))
+
+
 def _stretched(
     points: ContactPoints, laws: ContactLaws, force: tuple[Floats, Floats], acts: Bools
 ) -> ContactPoints:

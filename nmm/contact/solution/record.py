@@ -40,6 +40,9 @@ class ContactSolution:
     broken
         The contacts at the start of the last solution, with the bonds broken that broke before it;
         None where none did.
+    between
+        Work (J) that loads do within a step of a path beyond that of their mean at both ends: what
+        bonds take that pass their peak between them.
     missed
         (m,) error of linearised spring forces at the gaps that were found (N); None where springs
         are linear.
@@ -52,6 +55,7 @@ class ContactSolution:
     stopped: bool = False
     sliding: Floats = field(default_factory=lambda: np.zeros(0))
     rows: ContactRows | None = None
+    between: float = 0.0
     missed: Floats | None = None
     broken: "BrokenBonds | None" = None
 

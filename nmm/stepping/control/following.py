@@ -259,7 +259,7 @@ class _Following:
             lost = self._released(at.state, later)
             if anew:  # where new faces leave more stored, functions of a tip went: no loss
                 lost = max(lost, attempt.solved.loss, 0.0)
-            attempt = replace(attempt, solved=replace(attempt.solved, loss=lost))
+            attempt = replace(attempt, solved=replace(attempt.solved, loss=lost, between=0.0))
         elif attempt.solved is not None:
             lost = attempt.solved.loss + at.shed
             attempt = replace(attempt, solved=replace(attempt.solved, loss=lost))

@@ -110,7 +110,8 @@ def joined(first: Attempt, then: Attempt) -> Attempt:
     """One attempt of a step and its correction."""
     solved = then.solved
     if solved is not None and first.solved is not None:
-        solved = replace(solved, loss=solved.loss + first.solved.loss)
+        between = solved.between + first.solved.between
+        solved = replace(solved, loss=solved.loss + first.solved.loss, between=between)
     return replace(
         then,
         motion=max(first.motion, then.motion),

@@ -127,7 +127,11 @@ class Ledger:
         return found.weighed(after.time, audited=attempt.booked is not None)
 
     def _worked(self, plan: "Plan", before: State, attempt: Attempt) -> float:
-        """Return the work (J) of all steps and of an accepted one."""
+        """Return the work (J) of all steps and of an accepted one.
+
+        Along paths it counts what loads do between its ends. The step after a change begins out of
+        balance, and has no mean load.
+        """
         work, after = self.work, attempt.state
         grows = self._grows(plan)
         if grows:
@@ -135,6 +139,8 @@ class Ledger:
         work += plan.work(before, after)
         if grows:
             work -= standing(plan, before, after)
+        if attempt.solved is not None and not self.settling:
+            work += attempt.solved.between
         return work + (0.0 if attempt.booked is None else attempt.booked.late)
 
     def _stored_first(self, plan: "Plan", before: State, earlier: Mapping[str, float]) -> float:

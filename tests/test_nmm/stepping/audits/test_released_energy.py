@@ -64,3 +64,11 @@ def test_what_a_softening_bond_takes_between_the_ends_of_increments_is_told():
     # At ends of 0.4 mm it holds 100 kN (1 - k / 5) / 0.9, k = 1 to 5: 88.9 J by the trapezoidal
     # rule, which passes the peak, of 100 J.
     assert float(told.split(" J")[0]) == pytest.approx(100 - 80 / 0.9, rel=0.01)
+
+
+@pytest.mark.parametrize("increment", [1.0, 0.5, 0.03])
+def test_a_softening_bond_takes_its_fracture_energy_whatever_the_increment(increment):
+    law = 'law = "linear_softening"\nfracture_energy = 100.0\n'
+    run = torn(law, GROWING, increment)
+    # What the springs that take over unload by: (100 kPa)^2 / 2 over 1e4 penalties of 1 GPa / m.
+    assert run.history["friction_loss"][-1] == pytest.approx(100.0, rel=1e-5)
