@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from covers.cutting.components import components
-from integration.arrays import Bools, Floats, Ints
+from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.tractions.donors import across
+from nmm.constraints.bonded_edges import bonded_stiffness
 from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface, nearest
 from nmm.constraints.linear_matter import method_for
@@ -28,7 +28,7 @@ from nmm.constraints.turned_axes import turning
 from nmm.contact.detection.joints import Joints
 from nmm.effects.base import Instant, Setup
 from nmm.effects.initial.stress_at_start import StressAtStart
-from nmm.errors import FormulationError, SceneError
+from nmm.errors import FormulationError
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
@@ -53,7 +53,7 @@ class BondedInterfaces(TiedInterfaces):
         """Find the edges that blocks with a bonded interface share."""
         model, part = setup.model, setup.formulation.glue
         joints = shared_edges(model)
-        spring, sprung, glued = _stiffnesses(setup, joints)
+        spring, sprung, glued = bonded_stiffness(setup, joints)
         ties: list[Imposition] = []
         if sprung.any():
             interface = gauss_interface(model, joints.take(sprung))
@@ -205,35 +205,3 @@ def _under_stress(setup: Setup, tie: Springs) -> Springs:
     force = interface.area[:, None] * across((a + b)[:, :3] / 2, interface.first.normal)
     anchor = np.asarray(np.linalg.solve(tie.stiffness, force[:, :, None])[:, :, 0], dtype=float)
     return replace(tie, interface=replace(interface, anchor=anchor))
-
-
-def bonded_groups(setup: Setup) -> int:
-    """Return how many groups of bodies nothing that is bonded holds together."""
-    model = setup.model
-    joints = shared_edges(model)
-    _, sprung, glued = _stiffnesses(setup, joints)
-    held = joints.take(sprung | glued)
-    edges, body = model.manifold.boundary, model.manifold.element_body
-    pairs = (body[edges.element[edge]] for edge in (held.edge_a, held.edge_b))
-    return int(components(model.manifold.n_bodies, *pairs).max(initial=-1)) + 1
-
-
-def _stiffnesses(setup: Setup, joints: Joints) -> tuple[Floats, Bools, Bools]:
-    """Stiffness (j, 2) in Pa/m of joints, NaN where none is named; which are sprung, and glued."""
-    edges, region = setup.model.manifold.boundary, setup.model.manifold.element_region
-    one, two = edges.element[joints.edge_a], edges.element[joints.edge_b]
-    materials, found = list(setup.scene.materials), np.full((len(one), 2), np.nan)
-    bonded = np.zeros(len(one), dtype=bool)
-    first, second = setup.region_material[region[one]], setup.region_material[region[two]]
-    for a, b in np.unique(np.stack([first, second], axis=1), axis=0):  # pairs of materials
-        try:
-            item = setup.scene.interface(materials[a], materials[b])
-        except SceneError:
-            continue
-        # Sub-blocks of one block are the formulation's to tie.
-        chosen = (first == a) & (second == b) & (region[one] != region[two]) & item.bonded
-        bonded |= chosen
-        for axis, own in enumerate((item.normal_stiffness, item.shear_stiffness)):
-            found[chosen, axis] = np.nan if own is None else own
-    named = ~np.isnan(found).all(axis=1)
-    return found, bonded & named, bonded & ~named
