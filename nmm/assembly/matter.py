@@ -128,7 +128,8 @@ class Matter:
     def prestressed(self, history: History, stress: Floats, across: Floats) -> dict[str, Floats]:
         """Return the history with an initial stress (Q, 3) of the points.
 
-        Where a stress ``across`` (Q,) is given, what laws remember makes it; nan is none.
+        Where a stress ``across`` (Q,) is given, what laws remember makes it; nan is none. Matter in
+        which time passes remembers the stress as if it had come on in an instant.
         """
         strain = np.asarray(np.linalg.solve(self.elastic, stress[:, :, None]), dtype=float)[:, :, 0]
         found = {**history, INITIAL: strain}
@@ -137,7 +138,19 @@ class Matter:
             for name, value in law.under(strain[at], stress[at], across[at]).items():
                 found[name] = found[name].copy()
                 found[name][at, : value.shape[1]] = value
-        return found
+        return found if all(law.rests for law in self.laws) else self._loaded(found)
+
+    def _loaded(self, history: dict[str, Floats]) -> dict[str, Floats]:
+        """Return the history with what laws that do not rest remember of the initial strain."""
+        for law, at in self._points:
+            if law.rests:
+                continue
+            own = self._own(law, history, at)
+            after = law.update(history[INITIAL][at], own, self.plane, 0.0).history
+            for name, value in after.items():
+                history[name] = history[name].copy()
+                history[name][at, : value.shape[1]] = value
+        return history
 
     def update(
         self, deformation: Floats, history: History, step: float, before: Floats | None = None

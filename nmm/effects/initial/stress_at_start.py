@@ -6,11 +6,13 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Bools, Floats, Ints
 from integration.polygons import areas, centroids
 from integration.rules import polygon_rule
 from nmm.assembly.model import Model
 from nmm.assembly.stress_points import StressPoints
+from nmm.errors import Fault, SceneError
+from nmm.materials.base import Law
 
 if TYPE_CHECKING:
     from nmm.effects.base import Setup
@@ -45,8 +47,9 @@ class StressAtStart:
         height = centroids(setup.model.manifold.elements)[:, 1]
         mean, slope = np.zeros((len(region), 4)), np.zeros((len(region), 4))
         mean[:, 3] = np.nan
-        for item in setup.scene.initial_stresses:  # a handful of tables
+        for number, item in enumerate(setup.scene.initial_stresses):  # a handful of tables
             regions = setup.regions(item.block)
+            _refuse_across(setup, number, regions)
             chosen = np.full(len(region), True) if regions is None else regions[region]
             at_zero, slope[chosen] = _line(item, setup.origin[1])
             mean[chosen] = at_zero + height[chosen, None] * slope[chosen]
@@ -88,6 +91,29 @@ class StressAtStart:
             square = rule.weights * (rule.points[:, 1] - middle[rule.owner, 1]) ** 2
             found += float(_density(model, self.slope) @ np.bincount(rule.owner, square, len(area)))
         return found * model.thickness
+
+
+def _refuse_across(setup: "Setup", number: int, regions: Bools | None) -> None:
+    """Refuse a stress out of the plane of matter that knows of none.
+
+    Raises
+    ------
+    SceneError
+        In plane stress, and of laws that are not linear and whose variables do not tell of it.
+    """
+    item, scene, laws = setup.scene.initial_stresses[number], setup.scene, setup.model.laws
+    key = "across" if item.across is not None else "ratio_across"
+    if getattr(item, key) is None:
+        return
+    place = scene.source.place("initial_stresses", number, key)
+    if setup.model.plane == "stress":
+        raise SceneError(Fault(place, "in plane stress", "none across the plane", "remove it"))
+    own = np.asarray(setup.region_material)[slice(None) if regions is None else regions]
+    for law in (laws[one] for one in np.unique(own)):  # a handful of materials
+        if not law.linear and type(law).under is Law.under:
+            value, expected = f"of {type(law).__name__}", "matter that flows"
+            remedy = "remove it: the stress across is then that of elastic matter"
+            raise SceneError(Fault(place, value, expected, remedy))
 
 
 def _density(model: Model, stress: Floats) -> Floats:

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import nmm
-from nmm.testing.scenes import biaxial_test
+from nmm.errors import SceneError
+from nmm.testing.scenes import biaxial_test, edge_support
 
 ACROSS = "across = -1e5"
 SMALL = '[formulation.loading]\nincrement = 0.05\n[formulation.rotation]\nupdate = "small"\n'
@@ -23,6 +24,24 @@ def test_soil_under_even_pressure_yields_and_widens_as_in_closed_form(psi, widen
     assert run.history["monitor:side:ux"][-1] == pytest.approx(widening, rel=5e-4)
     assert -run.frames[-1].stress[:, 1].mean() == pytest.approx(369282.032, rel=1e-5)
     assert run.state.history["stress_zz"].mean() == pytest.approx(-167320.508, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("plane", "law"),
+    [
+        ("stress", 'law = "von_mises"\nyield_stress = 1e6'),
+        ("strain", 'law = "maxwell"\nviscosity = 1e15'),
+    ],
+)
+def test_it_is_refused_where_nothing_would_know_of_it(plane, law):
+    """Matter that creeps went on as if it had the stress of elastic matter across."""
+    text = f'plane = "{plane}"\nduration = 1.0\n' if plane == "strain" else 'plane = "stress"\n'
+    text += f"[materials.salt]\n{law}\nyoung_modulus = 1e10\npoisson_ratio = 0.25\n"
+    text += '[[blocks]]\nname = "b"\nmaterial = "salt"\nvertices = [[0, 0], [1, 0], [1, 1]]\n'
+    text += edge_support("foot", (0, 0), (1, 0))
+    text += f'[[initial_stresses]]\nblock = "all"\nstress = [-1e5, -1e5, 0]\n{ACROSS}\n'
+    with pytest.raises(SceneError, match=r"initial_stresses.*across: .*remove it"):
+        nmm.run(nmm.parse_scene(text, "salt.toml"))
 
 
 def test_without_it_the_stress_across_is_that_of_elastic_matter():
