@@ -190,6 +190,19 @@ class Law(ABC):
             held = float(across / (along + across))
         return np.array([1 + held, 1 + held, 0.0])
 
+    def pore_share(self, plane: str) -> Floats:
+        """Return the stress (3,) in the plane that a pressure of 1 in all its pores takes.
+
+        In plane strain it is 1 itself. In plane stress, where what the pores press across widens
+        matter freely, it is less by what that contracts in the plane: ``(1 - 2 nu) / (1 - nu)`` of
+        a `stiffness` alike in all directions; a linear law that has axes defines its own.
+        """
+        share = 1.0
+        if plane == "stress":
+            along, across = self.stiffness(plane)[0, :2]
+            share = float((along - 2 * across) / (along - across))
+        return np.array([share, share, 0.0])
+
     @property
     @abstractmethod
     def modulus(self) -> float:

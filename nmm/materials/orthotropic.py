@@ -68,6 +68,14 @@ class Orthotropic(Law):
         """The larger of Young's moduli in the plane (Pa)."""
         return max(self.young_modulus, self.young_modulus_2)
 
+    def pore_share(self, plane: str) -> Floats:
+        """See `Law.pore_share`: less by what axis 3, free, contracts each of the others."""
+        own = np.array([1.0, 1.0, 0.0])
+        if plane == "stress":
+            solid = np.linalg.inv(self._compliance())
+            own[:2] -= solid[:2, 2] / solid[2, 2]
+        return np.asarray(self._turn.T @ own)
+
     @property
     def _turn(self) -> Floats:
         """Matrix (3, 3) from strains (xx, yy, 2 xy) to those along the axes."""

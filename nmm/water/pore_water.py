@@ -2,7 +2,8 @@
 
 With Darcy's law the head ``h`` obeys ``S dh/dt = div (k grad h)``; the pressure of the pores
 ``p = w (h - y)``, ``w`` the weight of water, takes ``b p`` from the total normal stresses
-(Terzaghi 1936; Biot 1941 for ``b``). What pores gain by strain `nmm.water.consolidation` adds.
+(Terzaghi 1936; Biot 1941 for ``b``), and a share of it in plane stress
+(`nmm.materials.base.Law.pore_share`). What pores gain by strain `nmm.water.consolidation` adds.
 """
 
 from collections.abc import Mapping
@@ -15,7 +16,6 @@ from covers.scalar.space import ScalarSpace
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place
-from nmm.assembly.stress_points import ISOTROPIC
 from nmm.diffusion.course import FieldCourse
 from nmm.diffusion.field_effect import FieldEffect, course_of
 from nmm.diffusion.field_stress import FieldStress
@@ -81,8 +81,7 @@ class PoreWater(FieldEffect):
             if filling is not None:
                 initial = fitted(setup, space, everything, partial(filling.at_rest, level))
         ground = fitted(setup, space, everything, lambda points: points[:, 1])
-        biot = of_elements(setup, "biot", missing=1.0)
-        stress = FieldStress(space, setup.model, biot[:, None] * ISOTROPIC)
+        stress = FieldStress(space, setup.model, _pore_stress(setup))
         course = course_of(setup, problem, initial, second)
         conductivity = of_elements(setup, "hydraulic_conductivity")
         weight = table.unit_weight
@@ -135,6 +134,26 @@ class PoreWater(FieldEffect):
         values = self.space.vertices @ self.acting(state.time)
         extremes = {"lowest": float(values.min()), "highest": float(values.max())}
         return {**extremes, **self.amounts(state)}
+
+
+def _pore_stress(setup: Setup) -> Floats:
+    """Return the stress (E, 3) that a unit of pressure takes.
+
+    Raises
+    ------
+    SceneError
+        Matter in plane stress that is not linear: its laws know of no stress across.
+    """
+    model, biot = setup.model, of_elements(setup, "biot", missing=1.0)
+    for name, law in zip(setup.scene.materials, model.laws, strict=True):  # a handful of materials
+        pressed = setup.scene.materials[name].biot != 0
+        if model.plane == "stress" and pressed and not law.linear:
+            place = setup.scene.source.place("materials", name, "law")
+            value = f'"{setup.scene.materials[name].law}" with [seepage] in plane stress'
+            remedy = 'use plane = "strain", or an elastic law'
+            raise SceneError(Fault(place, value, "matter that is linear", remedy))
+    shares = np.array([law.pore_share(model.plane) for law in model.laws])
+    return np.asarray(biot[:, None] * shares[model.law])
 
 
 def _bends(setup: Setup) -> bool:

@@ -39,6 +39,9 @@ def seepage_contradictions(data: Tables) -> Iterator[Finding]:
         return
     table = data["seepage"] if isinstance(data["seepage"], Mapping) else {}
     transient = table.get("transient") is True
+    if table.get("coupled") is True and data.get("plane") == "stress":
+        expected = "plane strain: pores widen across a plate, too"
+        yield ("seepage", "coupled"), "true in plane stress", expected, 'use plane = "strain"'
     yield from durations(data, "seepage")
     needs = ["hydraulic_conductivity", *(["specific_storage"] if transient else [])]
     if transient and table.get("free_surface") is True:
