@@ -59,7 +59,7 @@ class ModelContact:
     steps
         What puts the problem of a step together and solves it.
     stored_first
-        Energy (J) of springs that carry something from the start (`lie_under`).
+        Energy (J) of contacts that carry something at the start (`lie_under`, `stands`).
     """
 
     stored_first: float = 0.0
@@ -138,11 +138,12 @@ class ModelContact:
         self._laid = self.standing
         self.stored_first = self.laws.energy(self._laid, own_only=self.exact)
 
-    def first_work(self, before: State, after: State) -> float:
-        """Half of what forces of springs take that carried something at the start (J).
+    def stands(self, state: State) -> None:
+        """Take the contacts as they are for those that act at the start of statics."""
+        self._laid, self.stored_first = self.standing, self.energy(state)
 
-        Nothing held them then: see `Effect.first_work`.
-        """
+    def first_work(self, before: State, after: State) -> float:
+        """See `Effect.first_work`: half of what forces take that contacts carried at the start."""
         if self._laid is None:
             return 0.0
         from nmm.contact.laws.laid_under_stress import taken_on_way

@@ -21,6 +21,23 @@ SAME = 1.5
 # Steps in an impact with which Shi's integrator keeps nine tenths of its energy.
 RESOLVED = 60
 
+# Why work is not what is stored and lost in statics, and what to do: bonds broke, bodies touch, or
+# neither.
+TORN = (
+    " where bonds broke: statics knows ends of increments alone, and what bonds free at once sets "
+    "bodies in motion",
+    "follow the path ([loading.control]), take smaller increments, or [inertia]",
+)
+TOUCHED = (
+    ": work is of the means of loads at both ends of increments, within which contacts close, open "
+    "or slide",
+    "take smaller increments where energies matter",
+)
+BENT = (
+    ": work is of the means of loads at both ends of increments, within which bodies bend and turn",
+    TOUCHED[1],
+)
+
 
 def energy(run: EndedRun) -> Findings:
     """Audit the energies of a run."""
@@ -65,19 +82,18 @@ def balance(stepper: "Stepper", ledger: "Ledger") -> float:
 
 
 def _released(run: EndedRun) -> Findings:
-    """Energy of statics that neither work nor losses account for where bonds broke."""
+    """Energy of statics that neither work nor losses account for."""
     stepper, ledger = run.stepper, run.recorder.ledger
-    contact = stepper.plan.contact
-    if contact is None or not contact.broken_bonds:
-        return
-    share = abs(balance(stepper, ledger))
+    share, contact = abs(balance(stepper, ledger)), stepper.plan.contact
+    why, remedy = BENT
+    if contact is not None:
+        why, remedy = TORN if contact.broken_bonds else TOUCHED
     yield AuditFinding(
         "energy_released",
         share,
         f"{share * ledger.throughput:.3g} J, {percent(share)} of the turnover, is the difference "
-        "between work and what is stored and lost where bonds broke: statics knows ends of "
-        "increments alone, and what bonds free at once sets bodies in motion",
-        "follow the path ([loading.control]), take smaller increments, or [inertia]",
+        f"between work and what is stored and lost{why}",
+        remedy,
     )
 
 

@@ -56,7 +56,7 @@ THRESHOLDS: dict[str, Threshold] = {
         "energy that neither stores nor losses account for, over the turnover",
         0.05,
         None,
-        "statics with contact in which bonds broke",
+        "statics with contact, and of bodies that turn",
     ),
     "not_finite": Threshold("energies that are no finite numbers", 0, 0, "all"),
     "residual": Threshold(

@@ -157,7 +157,9 @@ class Recorder:
 
     def brought_to(self, state: State) -> None:
         """Book a state to which loose blocks were brought besides the steps of the run."""
-        ledger = self.ledger
+        ledger, contact = self.ledger, self.stepper.plan.contact
+        if not ledger.steps and contact is not None:
+            contact.stands(state)
         if ledger.steps:
             ledger = ledger.changed(self.stepper.plan, self.stepper.model, state)
             self.totals = with_parts(self.totals, ledger=ledger)
