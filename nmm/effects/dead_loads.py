@@ -39,7 +39,7 @@ class DeadLoad:
         way = after.frames.centre - before.frames.centre
         found = float((self._force * way).sum())
         if self._lever is not None:
-            found += float(np.sum(self._lever * (_turned(after) - _turned(before))))
+            found += float(np.sum(self._lever * (turned(after) - turned(before))))
         return found + float(pushed[1] @ after.deformation - pushed[0] @ before.deformation)
 
     @cached_property
@@ -70,7 +70,7 @@ class DeadLoad:
         return np.asarray(found, dtype=float)
 
 
-def _turned(state: State) -> Floats:
+def turned(state: State) -> Floats:
     """(B, 2, 2) from arms in body axes to the way from the centre in global axes."""
     turn, tilt = state.frames.rotation, state.frames.tilt
     if tilt is None:

@@ -2,16 +2,17 @@
 
 Cundall's force on a mass is ``-alpha |F| sgn(v)``, ``F`` what is out of balance. With ``m a = F``
 less that force, ``m a = (1 - alpha s) F`` and ``s`` the sign of ``F v``: a mass of ``m / (1 -
-alpha s)``. Here the masses are elements: ``s`` is the sign of the power that the acceleration gives
-to an element, which no choice of unknowns changes, and the force takes energy of every element.
+alpha s)``. Here the masses are elements, and what ``[[masses]]`` put on a body: ``s`` is the sign
+of the power that the acceleration gives to one, which no choice of unknowns changes, and the force
+takes energy of each.
 """
 
 from typing import Self
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, diags_array
 
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 from nmm.assembly.elements import element_matrices
 from nmm.assembly.elements.blocks import Part, assemble
 from nmm.assembly.model import Model
@@ -38,6 +39,7 @@ class LocalDamping(Effect):
             element(group, group.shape, density[group.elements])
             for group in model.manifold.groups  # a handful of groups
         ]
+        self._points, self._body = model.point_mass, _body_of_unknowns(model)
         self._kept: tuple[Floats, csc_array] | None = None
 
     @classmethod
@@ -54,7 +56,8 @@ class LocalDamping(Effect):
 
     def added_mass(self, state: State) -> csc_array:
         """Return what the mass gains or loses by the signs at the start of the step."""
-        more = 1 / (1 - self._share * np.sign(self.power(state))) - 1
+        power = np.concatenate([self.power(state), self._power_of_points(state)])
+        more = 1 / (1 - self._share * np.sign(power)) - 1
         if self._kept is None or not np.array_equal(self._kept[0], more):
             self._kept = more, self._matrix(more)
         return self._kept[1]
@@ -69,11 +72,26 @@ class LocalDamping(Effect):
             found[group.elements] = np.einsum("nl,nlm,nm->n", velocity, masses, acceleration)
         return found
 
+    def _power_of_points(self, state: State) -> Floats:
+        """Return the power (B,) in W that the acceleration gives to the masses at points."""
+        if self._points is None:
+            return np.zeros(0)
+        given = state.velocity * (self._points @ state.acceleration)
+        found = np.bincount(self._body, given, minlength=self._manifold.n_bodies)
+        return np.asarray(found, dtype=float)
+
     def forget(self) -> None:
         """See `Effect.forget`."""
         self._kept = None
 
     def _matrix(self, factor: Floats) -> csc_array:
+        found = self._of_elements(factor)
+        if self._points is None:
+            return found
+        of_body = factor[len(self._manifold.element_body) :]
+        return csc_array(found + diags_array(of_body[self._body]) @ self._points)
+
+    def _of_elements(self, factor: Floats) -> csc_array:
         groups = zip(self._manifold.groups, self._masses, strict=True)
         parts = [
             Part(
@@ -82,3 +100,11 @@ class LocalDamping(Effect):
             for group, masses in groups
         ]
         return assemble(parts, self._manifold.n_unknowns, self._manifold.cover_offset)
+
+
+def _body_of_unknowns(model: Model) -> Ints:
+    """Body (n,) that each unknown moves."""
+    found = np.zeros(model.manifold.n_unknowns, dtype=np.int64)
+    for group in model.manifold.groups:  # a handful of groups
+        found[group.unknowns] = model.manifold.element_body[group.elements, None]
+    return found

@@ -1,6 +1,7 @@
 """Viscous damping by mass and by stiffness (Rayleigh)."""
 
 from collections.abc import Mapping
+from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -10,7 +11,8 @@ from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Instant, Setup
-from nmm.effects.dead_loads import DeadLoad
+from nmm.effects.dead_loads import turned
+from nmm.solvers.unchecked import product
 
 if TYPE_CHECKING:
     from nmm.effects.motion.record import GroundMotion
@@ -94,8 +96,12 @@ class GroundDamping(ViscousDamping):
     def work(self, before: State, after: State) -> float:
         """Mean of that force at both ends of the step times the motion of the mass."""
         mean = (self._velocity(before.time) + self._velocity(after.time)) / 2
-        pushed = self._push(before, mean), self._push(after, mean)
-        return DeadLoad(self._model, self._density(mean)).work(before, after, pushed)
+        heavy, arm = self._masses
+        way = heavy[:, None] * (after.frames.centre - before.frames.centre)
+        way += np.einsum("bij,bj->bi", turned(after) - turned(before), arm)
+        strained = self._push(after, mean) @ after.deformation
+        strained -= self._push(before, mean) @ before.deformation
+        return self._mass * float(way.sum(axis=0) @ mean) + float(strained)
 
     def _velocity(self, time: float) -> Floats:
         """Velocity (2,) of the ground (m/s)."""
@@ -103,10 +109,18 @@ class GroundDamping(ViscousDamping):
 
         return velocity_of(self._motions, time)
 
-    def _density(self, velocity: Floats) -> Floats:
-        """Force (E, 2) on the volume of elements (N/m3)."""
-        return np.asarray(self._mass * self._model.density[:, None] * velocity)
+    @cached_property
+    def _masses(self) -> tuple[Floats, Floats]:
+        """Mass (B,) of the bodies, and times the arm of its centre from the centroid (B, 2)."""
+        modes = self._model.manifold.rigid_modes
+        moments = modes.T @ (self._model.mass @ modes)
+        arm = np.stack([moments.diagonal(1)[1::3], -moments.diagonal(2)[::3]], axis=1)
+        return moments.diagonal()[::3], arm
 
     def _push(self, state: State, velocity: Floats) -> Floats:
-        body = self._model.manifold.element_body
-        return self._model.body_load(state.frames.to_body(body, self._density(velocity)))
+        """Force (n,) of the mass dragged along, as of bodies that move with a velocity (2,)."""
+        way, bodies = np.zeros((self._model.manifold.n_bodies, 3)), len(state.frames.centre)
+        way[:, :2] = state.frames.to_body(np.arange(bodies), np.tile(velocity, (bodies, 1)))
+        return self._mass * product(
+            self._model.mass, self._model.manifold.rigid_modes @ way.ravel()
+        )

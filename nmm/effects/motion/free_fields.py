@@ -11,7 +11,7 @@ from nmm.effects.acting_place import edge_place
 from nmm.effects.base import Setup
 from nmm.effects.motion.driven_edges import DrivenEdges
 from nmm.effects.motion.edge_dashpots import EdgeDashpots, ground_of
-from nmm.effects.motion.ground_column import Drive, GroundColumn
+from nmm.effects.motion.ground_column import Drive, GroundColumn, still
 from nmm.effects.motion.record import motions_of
 from nmm.errors import Fault, GeometryError, SceneError
 
@@ -98,7 +98,8 @@ def _side(setup: Setup, table: "FreeFieldTable") -> FreeField:
     for axis, entry in enumerate((2, 1)):  # shear along x, pressure along y
         modulus = model.elasticity[element, entry, entry]
         base = _base(setup, table, axis, float(model.density[element[0]] * modulus[0]) ** 0.5)
-        columns.append(GroundColumn(height, modulus, model.density[element], factors, step, base))
+        made_of = height, modulus, model.density[element], factors, step, base
+        columns.append(GroundColumn(*made_of, _dragging(setup, axis)))
     elasticity = model.elasticity[place.elements]
     lateral = elasticity[:, 0, 1] / elasticity[:, 1, 1]
     return FreeField(EdgeDashpots.of(model, place), (columns[0], columns[1]), lateral)
@@ -141,7 +142,7 @@ def _base(
     if boundary is not None:
         ground, wave = ground_of(boundary), motions_of(scene, boundary.incoming).get(axis)
         impedance = own if ground is None else float(ground[1 - axis])
-        return impedance, (lambda time: 0.0) if wave is None else wave.velocity_at
+        return impedance, still if wave is None else wave.velocity_at
     support = next((one for one in scene.supports if one.name == table.base), None)
     if support is None:
         raise GeometryError(
@@ -149,4 +150,13 @@ def _base(
             "expected the boundary below: keep it, or remove the free field"
         )
     motion = motions_of(scene, support.motion).get(axis)
-    return None, (lambda time: 0.0) if motion is None else motion.displacement_at
+    return None, still if motion is None else motion.displacement_at
+
+
+def _dragging(setup: Setup, axis: int) -> Drive:
+    """Return the velocity of the ground against which mass damps: axes at rest if none is named."""
+    scene = setup.scene
+    ground = None if scene.damping is None else scene.damping.ground
+    named = [one.motion for one in scene.supports if ground is not None and one.name == ground]
+    motion = motions_of(scene, named[0]).get(axis) if named else None
+    return still if motion is None else motion.velocity_at

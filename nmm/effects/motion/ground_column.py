@@ -15,6 +15,11 @@ from integration.arrays import Floats
 Drive = Callable[[float], float]
 
 
+def still(time: float) -> float:
+    """Motion of what stands still."""
+    return 0.0
+
+
 @dataclass
 class GroundColumn:
     """Motion of one component in a column.
@@ -32,6 +37,8 @@ class GroundColumn:
     base
         Impedance of the ground below (Pa s/m) with the velocity of the wave that comes in from
         there (m/s); or no impedance, with the displacement of the base (m).
+    against
+        Velocity of the ground against which mass damps (m/s).
     """
 
     height: Floats
@@ -40,6 +47,7 @@ class GroundColumn:
     damping: tuple[float, float]
     step: float
     base: tuple[float | None, Drive]
+    against: Drive = still
     _displacement: list[Floats] = field(default_factory=list)
     _velocity: list[Floats] = field(default_factory=list)
 
@@ -57,8 +65,8 @@ class GroundColumn:
         self._free = 0 if impedance is not None else 1
         self._coupling = system[0, 1] if self._free else 0.0
         self._factor = cholesky_banded(np.delete(system, range(self._free), axis=1))
-        still = np.zeros(len(self.height))
-        self._displacement, self._velocity = [still], [still]
+        rest = np.zeros(len(self.height))
+        self._displacement, self._velocity = [rest], [rest]
 
     def velocity(self, time: float) -> Floats:
         """Return the velocity (k + 1,) of the nodes (m/s)."""
@@ -84,6 +92,8 @@ class GroundColumn:
         time, (impedance, drive) = (len(self._displacement) - 1) * self.step, self.base
         ends = drive(time), drive(time + self.step)
         push = 2 / self.step * _times(self._mass, v) - _times(self._stiffness, u)
+        dragged = sum(self.against(at) for at in (time, time + self.step)) / 2
+        push += self.damping[0] * _times(self._mass, np.full(len(u), dragged))
         way = np.zeros(len(u))
         if impedance is not None:
             push[0] += impedance * sum(ends)  # twice the mean of both ends

@@ -167,6 +167,32 @@ def test_a_block_in_free_fall_gains_speed_by_three_tenths_of_its_weight_as_docum
     assert run.history["monitor:stone:uy"][-1] == pytest.approx(expected, rel=6e-3)
 
 
+HEAVY = '[[masses]]\nname = "load"\npoint = [0.5, 0.8]\nblock = "stone"\nmass = 2e5\n'
+
+
+def test_masses_at_points_fall_under_local_damping_as_their_block_does():
+    """A hundred times as heavy as its block, a load fell by all of its weight."""
+    run = nmm.run(nmm.parse_scene(FALL + HEAVY))
+    assert run.history["monitor:stone:uy"][-1] == pytest.approx(-0.3 * 9.81 / 2, rel=6e-3)
+
+
+@pytest.mark.parametrize("load", ["", HEAVY])
+def test_ground_that_moves_drags_masses_at_points_along(load):
+    """``u = v (t - (1 - e^(-a t)) / a)``, and the work is that of force on mass and its losses."""
+    ridden = (
+        '[records.steady]\nsamples = [[0, 2.0], [10, 2.0]]\nquantity = "velocity"\n'
+        '[[blocks]]\nname = "base"\nmaterial = "rock"\n'
+        "vertices = [[5, 0], [6, 0], [6, 1], [5, 1]]\n"
+        '[[supports]]\nname = "rock"\nblock = "base"\nfix = ["x", "y"]\n'
+        'motion = { x = "steady" }\n'
+    )
+    text = FALL.replace("local = 0.7", 'mass = 5.0\nground = "rock"').replace("[gravity]\n", "")
+    run = nmm.run(nmm.parse_scene(text + ridden + load))
+    expected = 2.0 * (1 - (1 - np.exp(-5.0)) / 5.0)
+    assert run.history["monitor:stone:ux"][-1] == pytest.approx(expected, rel=2e-3)
+    assert run.summary.status == "converged"
+
+
 @pytest.mark.parametrize("damping", ["mass = 0", "stiffness = 0", "local = 0"])
 def test_damping_of_nothing_changes_nothing(damping):
     plain, _ = swing("", 0.5)
