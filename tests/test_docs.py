@@ -115,7 +115,7 @@ def test_every_page_is_in_the_index():
 
 def test_every_hook_of_effects_is_in_the_manual():
     page = (ROOT / "docs/extending.md").read_text()
-    hooks = {name for name in vars(Effect) if not name.startswith("_")} - {"from_setup"}
+    hooks = {name for name in dir(Effect) if not name.startswith("_")} - {"from_setup"}
     assert not [hook for hook in hooks if f"`{hook}`" not in page]
 
 

@@ -1,4 +1,4 @@
-"""Where a table of the scene acts: points of the material at its point, segment or block."""
+"""Material points at which a table of the scene acts: at its point, segment or block."""
 
 from typing import TYPE_CHECKING
 
@@ -16,12 +16,12 @@ if TYPE_CHECKING:
 
 
 def acting_place(setup: Setup, key: str, table: "PlacedTable", order: int) -> Place:
-    """Return the material at the point of a table ``[[key]]``, else what `edge_place` returns.
+    """Return the material point of a table ``[[key]]``; else what `edge_place` returns.
 
     Raises
     ------
     GeometryError
-        Where no material is, naming the line of the table.
+        There is no material; with the line of the table.
     """
     if table.point is None:
         return edge_place(setup, key, table, order)
@@ -34,14 +34,14 @@ def acting_place(setup: Setup, key: str, table: "PlacedTable", order: int) -> Pl
 
 
 def edge_place(setup: Setup, key: str, table: "OnEdges", order: int) -> Place:
-    """Return Gauss points on edges along the segment of a table ``[[key]]``, or round its block.
+    """Return Gauss points on edges along the segment of a table ``[[key]]``, or of its block.
 
-    They integrate polynomials of degree ``order`` exactly.
+    They are exact for polynomials of degree ``order``.
 
     Raises
     ------
     GeometryError
-        Where no edge is, naming the line of the table.
+        There is no edge; with the line of the table.
     """
     manifold, regions = setup.model.manifold, setup.regions(table.block)
     if table.segment is None:

@@ -1,4 +1,4 @@
-"""Force densities in the volume of blocks."""
+"""Body forces of constant density in blocks."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from nmm.effects.load_factor import load_factor
 
 @dataclass(frozen=True)
 class BodyLoad:
-    """One load: its density (E, 2) on each element at factor 1 (N/m3), its factor, any history."""
+    """One load: density (E, 2) at factor 1 (N/m3), factor, and whether it is steady."""
 
     density: Floats
     factor: Callable[[Instant], float]
@@ -25,7 +25,7 @@ class BodyLoad:
 
 
 class BodyLoads(Effect):
-    """All body loads of a scene, fixed in direction while bodies turn."""
+    """All body loads of a scene: dead loads, whose direction is fixed while bodies turn."""
 
     name = "body loads"
     placed = False
@@ -36,7 +36,7 @@ class BodyLoads(Effect):
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
-        """Build from the ``[[loads]]`` with a density."""
+        """Build from the ``[[loads]]`` of kind "body"."""
         region = setup.model.manifold.element_region
         found = []
         for load in setup.scene.loads:  # a handful of loads
@@ -49,11 +49,11 @@ class BodyLoads(Effect):
         return cls(setup.model, found)
 
     def force(self, state: State, end: Instant) -> Floats:
-        """Return the loads in the bodies' axes."""
+        """Return the load vector (n,) in the axes of the bodies."""
         return self._push(state, self._density(end))
 
     def work(self, before: State, after: State) -> float:
-        """Mean load of both ends of the step times the motion of the volume."""
+        """Work (J) of the mean of the loads at both ends of the step."""
         ends = (Instant.of(state) for state in (before, after))
         mean = np.asarray(sum(self._density(end) for end in ends) / 2)
         pushed = self._push(before, mean), self._push(after, mean)
@@ -70,7 +70,7 @@ class BodyLoads(Effect):
         return all(load.steady for load in self._loads)
 
     def _push(self, state: State, density: Floats) -> Floats:
-        """Return the load vector (n,) in the bodies' axes."""
+        """Load vector (n,) of a density (E, 2) in global axes, in the axes of the bodies."""
         body = self._model.manifold.element_body
         return self._model.body_load(state.frames.to_body(body, density))
 

@@ -1,4 +1,4 @@
-"""From one model to the next: what a change hands to all that hold numbers of the old one."""
+"""A change of the model: from the old model to the new one, with the state carried over."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -18,22 +18,22 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Change:
-    """What became of a model.
+    """A change of the model.
 
     Attributes
     ----------
     before
-        What effects were built from, with the old model.
+        Setup of the old model.
     setup
-        What they are built from now, with the new one.
+        Setup of the new model.
     parentage
-        Which elements, bodies, edges and covers come from which.
+        Parents of new elements, bodies, edges and covers.
     state
-        The last state, carried over to the new model; its effects are built for it.
+        The last state, transferred to the new model.
     former
-        The same on the old model.
+        The last state on the old model.
     kept
-        The stress of blocks whose material is another; None where none is.
+        Stress kept by blocks whose material changes; None where none does.
     """
 
     before: Setup
@@ -44,16 +44,16 @@ class Change:
     kept: "KeptStress | None" = None
 
     def field(self, displacement: Floats) -> Floats:
-        """Return a displacement field (n,) of the old model on the unknowns of the new one."""
+        """Transfer a displacement field (n,) of the old model to the unknowns of the new one."""
         transfer = Transfer.of(self.parentage, np.ones_like(self.old.density))
         return transfer.deformation(displacement, self.old.drained)
 
     @property
     def old(self) -> Model:
-        """The model so far."""
+        """The old model."""
         return self.before.model
 
     @property
     def new(self) -> Model:
-        """The model from now on."""
+        """The new model."""
         return self.setup.model

@@ -1,7 +1,6 @@
-"""Contact: bodies touch, rub, hold together by bonds, and part.
+"""The effect of contact: an adapter from scenes to `nmm.contact.model_contact`.
 
-An adapter: what contact is made of a scene and its formulation say (`contact_parts`), and what it
-does is in `nmm.contact.model_contact`.
+What a scene and its formulation declare is read in `contact_parts`.
 """
 
 from collections.abc import Sequence
@@ -20,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class Contact(ModelContact, Effect):
-    """All contacts of a scene, an effect: energy, and what is carried, are those of the model's."""
+    """All contacts of a scene as an effect: friction, bonds and separation of bodies."""
 
     name = "contact"
     external = False
@@ -34,14 +33,14 @@ class Contact(ModelContact, Effect):
         return found
 
     def begin(self, state: State) -> State:
-        """See `Effect.begin`: contacts carry the stress of the ground as they are drawn."""
+        """See `Effect.begin`: contacts carry the initial stress of the ground."""
         if self._ground is not None:
             self.lie_under(self._ground, state)
         return state
 
     @property
     def caution(self) -> str:
-        """See `Effect.caution`: dampers that bodies give way in place of."""
+        """See `Effect.caution`: bodies that are softer than their contact dampers."""
         if not self.laws.damps:
             return ""
         from nmm.contact.laws.yielding_bodies import yielding_bodies
@@ -49,17 +48,17 @@ class Contact(ModelContact, Effect):
         return yielding_bodies(self.laws, self.model)
 
     def follow(self, change: "Change") -> "Contact":
-        """Return the contact of the new model: joints and contacts go on."""
+        """Return the contact of the new model, with the state of joints and contacts."""
         new = type(self).from_setup(change.setup)
         new.go_on(self, change.parentage, change.state)
         return new
 
     def applied_forces(self, state: State) -> AppliedForces:
-        """See `Effect.applied_forces`: those on faces of cracks, as last committed."""
+        """See `Effect.applied_forces`: those on crack faces in the accepted state."""
         from nmm.contact.points.on_faces import on_faces
 
         return on_faces(self.model, self.standing)
 
     def receive_stresses(self, stresses: Sequence[StressAt]) -> None:
-        """See `Effect.receive_stresses`: the tractions of whole bonds are of the whole stress."""
+        """See `Effect.receive_stresses`: the tractions of intact bonds are of the total stress."""
         self.bonds.stresses = stresses

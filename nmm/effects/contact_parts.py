@@ -1,4 +1,4 @@
-"""What contact is made of, as a scene and its formulation say it."""
+"""The parts of contact, as a scene and its formulation declare them."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
@@ -26,9 +26,9 @@ from nmm.interfaces.from_scene import interface_law
 if TYPE_CHECKING:
     from nmm.contact.laws.laid_under_stress import StressIn
 
-# Lengths by which a cut may move a crack, within which an edge lies on it.
+# Distance, in tolerances of the cut, within which an edge lies on a crack.
 MOVED = 4.0
-# Points of a joint between cells that leave nothing of splines and moving least squares to see.
+# Largest number of Gauss points of a joint on splines and moving least squares.
 MOST_POINTS = 4
 
 
@@ -39,7 +39,8 @@ def contact_parts(setup: Setup) -> ContactParts:
     enforcement = make_enforcement(method.enforcement, dict(method.options), given)
     springs = _conserves(setup) and not enforcement.exact
     laws, points = _laws(setup), face_points(manifold, method.points, springs)
-    # Fields of blocks follow what single points ask for; a mean has no stiffness of its own.
+    # Means are for shared covers with rigid laws: blocks need no means, and a mean has no
+    # stiffness.
     means = enforcement.multipliers and manifold.shared_covers and points > 0 and not laws.stiff
     partners = Partners(
         setup.model,
@@ -62,7 +63,7 @@ def contact_parts(setup: Setup) -> ContactParts:
 
 
 def stress_of_ground(setup: Setup) -> "StressIn | None":
-    """Return the stress of ``[[initial_stresses]]`` at places in elements; None without any."""
+    """Return the initial stress as a function of elements and points; None without any."""
     if not setup.scene.initial_stresses:
         return None
     from nmm.effects.initial.stress_at_start import StressAtStart
@@ -71,7 +72,10 @@ def stress_of_ground(setup: Setup) -> "StressIn | None":
 
 
 def _no_potential(setup: Setup) -> FormulationError:
-    """Springs over stretches of faces, whose stiffness changes as bodies slide, store no energy."""
+    """Return the error of springs over faces in a scheme that conserves energy.
+
+    Their stiffness changes as bodies slide, so that they have no potential.
+    """
     place = setup.formulation.source.place("contact", "points")
     expected = '"vertices" or "auto" under an integrator that keeps energy'
     remedy = "springs over stretches of faces make or lose it as bodies slide, those at corners not"
@@ -79,25 +83,25 @@ def _no_potential(setup: Setup) -> FormulationError:
 
 
 def _conserves(setup: Setup) -> bool:
-    """Whether steps in time keep the energy of what is elastic."""
+    """Whether the integrator conserves elastic energy."""
     moves = setup.scene.inertia is not None
     return moves and make_integrator(setup.formulation.integrator).conserves
 
 
 def _cracks(setup: Setup) -> BondedCracks:
-    """Return the cracks whose faces begin bonded."""
+    """Return the cracks whose faces are bonded at first."""
     geometry = setup.geometry
     others = geometry.free if geometry.bonded else ()
     return BondedCracks(geometry.held, others, MOVED * setup.model.cut.crack_tolerance)
 
 
 def _joint_rule(method: ContactMethod, laws: ContactLaws, manifold: Manifold) -> tuple[str, int]:
-    """Return where joints act along their edge, and at how many Gauss points.
+    """Return the rule of joints along an edge, and its number of Gauss points.
 
-    Fields that bend along an edge give way about forces at its corners: by 0.6 of a cell's own
-    strain with covers of degree 1, by that of a cell with degree 2; at Gauss points they do not.
-    Bodies bend apart between fewer points than their degree asks; cells hold those beside them, by
-    one point, and by more where weights are not of one cell.
+    Forces at the corners of an edge strain higher-order fields locally: by 0.6 of a cell's own
+    strain with covers of degree 1, by the whole of it with degree 2; forces at Gauss points do not.
+    Separate bodies need as many points as their degree asks; cells of shared covers hold each
+    other, and need fewer.
     """
     auto = "gauss" if laws.consistent or manifold.degree > 1 else "corners"
     degree = manifold.degree
@@ -106,7 +110,7 @@ def _joint_rule(method: ContactMethod, laws: ContactLaws, manifold: Manifold) ->
 
 
 def _laws(setup: Setup) -> ContactLaws:
-    """Return the interface laws, springs in multiples of the largest modulus."""
+    """Return the interface laws, with penalties in multiples of the largest modulus."""
     method, thickness = setup.formulation.contact, setup.model.thickness
     unit = float(setup.model.modulus.max()) * thickness
     penalty, bond = method.normal_penalty * unit, method.bond_stiffness * unit
@@ -124,7 +128,7 @@ def _laws(setup: Setup) -> ContactLaws:
 
 
 def _pairs(setup: Setup) -> Pairs:
-    """Return the interfaces of a scene's materials."""
+    """Return the interface of each pair of materials of a scene."""
     materials = list(setup.scene.materials)
     names: Mapping[int, str] = dict(enumerate(materials))
     order = {id(item): number for number, item in enumerate(setup.scene.interfaces.values())}
@@ -139,7 +143,7 @@ def _pairs(setup: Setup) -> Pairs:
 
 
 def _held(setup: Setup) -> Bools:
-    """Which bodies (B,) a support holds as a whole, in both directions."""
+    """Which bodies (B,) are fixed as a whole by a support."""
     manifold = setup.model.manifold
     held: Bools = np.zeros(manifold.n_bodies, dtype=bool)
     for support in setup.scene.supports:  # a handful of supports

@@ -1,4 +1,4 @@
-"""Work of forces on volume that keep their direction while bodies turn and deform."""
+"""Work of dead body forces, whose direction is fixed while bodies turn and deform."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,32 +10,32 @@ from integration.polygons import centroids
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 
-# Arms of a body's weight below this share of its size are rounding.
+# Lever arms of a body's load below this share of its size are rounding.
 EVEN = 1e-12
 
 
 @dataclass(frozen=True)
 class DeadLoad:
-    """A force on volume, fixed in direction.
+    """A body force of fixed direction.
 
-    A point stands at ``c + R (A + tilt x A + T q)`` with its arm ``A`` from the body's centroid.
-    The way of all points, weighted by the load, is that of ``c``, of ``R A`` and of ``R T q``:
-    where axes stay all of the motion is in ``q``, where they follow it is in ``c``, and ``R A``
-    counts for bodies of uneven weight.
+    A point with the arm ``A`` from the body's centroid is at ``c + R (A + tilt x A + T q)``. The
+    work is the sum of those on the motion of ``c``, of ``R A`` and of ``R T q``: where axes are
+    fixed all motion is in ``q``, where they follow the body it is in ``c``, and ``R A`` contributes
+    for bodies of nonuniform load.
 
     Attributes
     ----------
     model
-        Bodies.
+        Manifold with its materials.
     density
-        (E, 2) force on the volume of each element in global axes (N/m3).
+        (E, 2) body force of each element in global axes (N/m3).
     """
 
     model: Model
     density: Floats
 
     def work(self, before: State, after: State, pushed: tuple[Floats, Floats]) -> float:
-        """Return the work (J) between two states; ``pushed`` (n,) are its load vectors in both."""
+        """Return the work (J) between two states; ``pushed`` are the load vectors (n,) in both."""
         way = after.frames.centre - before.frames.centre
         found = float((self._force * way).sum())
         if self._lever is not None:
@@ -44,12 +44,12 @@ class DeadLoad:
 
     @cached_property
     def _force(self) -> Floats:
-        """(B, 2) sum of the load on each body (N)."""
+        """(B, 2) resultant of each body (N)."""
         return np.stack([self._of_bodies(self._of_elements[:, i]) for i in (0, 1)], axis=1)
 
     @cached_property
     def _lever(self) -> Floats | None:
-        """(B, 2, 2) sum of force times arm (N m); None where loads are even and tilts do none."""
+        """(B, 2, 2) sum of force times arm of each body (N m); None where it is zero for all."""
         manifold = self.model.manifold
         arm = centroids(manifold.elements) - manifold.body_centroid[manifold.element_body]
         found = np.zeros((manifold.n_bodies, 2, 2))
@@ -71,7 +71,7 @@ class DeadLoad:
 
 
 def turned(state: State) -> Floats:
-    """(B, 2, 2) from arms in body axes to the way from the centre in global axes."""
+    """(B, 2, 2) from arms in body axes to vectors from the centroid in global axes."""
     turn, tilt = state.frames.rotation, state.frames.tilt
     if tilt is None:
         return turn

@@ -1,4 +1,4 @@
-"""What an effect asks for when blocks divide or cracks grow."""
+"""Events: changes of geometry that effects call for, as when blocks split or cracks grow."""
 
 from dataclasses import dataclass
 
@@ -7,19 +7,18 @@ from nmm.geometry.geometry import Geometry
 
 @dataclass(frozen=True)
 class Event:
-    """A change of what is material and where it is cracked.
+    """A change of the geometry.
 
     Attributes
     ----------
     geometry
-        Blocks and cracks from now on, in the reference place in which they are now.
+        Blocks and cracks after it, in the present reference configuration.
     what
-        What happens, for the summary: "2 blocks split".
+        What happens, in words for the summary, as "2 blocks split".
     held
-        Whether forces hold at first what is parted, so that accelerations go on as they were.
+        Whether forces hold new faces together at first, so that accelerations are continuous.
     exact
-        Whether the load is sought at which it happens; else that of a step that ends near it will
-        do.
+        Whether the load of the event is searched for; else the end of a step near it will do.
     """
 
     geometry: Geometry

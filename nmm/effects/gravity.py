@@ -1,4 +1,4 @@
-"""Weight: a constant acceleration of all mass."""
+"""The effect: gravity."""
 
 from functools import cached_property
 from typing import Self
@@ -14,7 +14,7 @@ from nmm.effects.dead_loads import DeadLoad
 
 
 class Gravity(Effect):
-    """Force density ``rho g``, fixed in space while bodies turn."""
+    """Body force ``rho g``, of fixed direction while bodies turn."""
 
     name = "gravity"
     external = False
@@ -33,7 +33,7 @@ class Gravity(Effect):
         return cls(setup.model, np.array(setup.scene.gravity.acceleration))
 
     def force(self, state: State, end: Instant) -> Floats:
-        """Return the weight in the bodies' axes."""
+        """Return the load vector (n,) of the weight in the axes of the bodies."""
         return self._weights.of(state)
 
     def _weight(self, state: State) -> Floats:
@@ -43,20 +43,20 @@ class Gravity(Effect):
 
     @cached_property
     def _everywhere(self) -> tuple[Ints, Floats]:
-        """All bodies (B,), and the acceleration (B, 2) of each in global axes."""
+        """Numbers (B,) of all bodies, and the acceleration (B, 2) of each in global axes."""
         bodies = np.arange(self._model.manifold.n_bodies)
         return bodies, np.tile(self._acceleration, (len(bodies), 1))
 
     @cached_property
     def _unit(self) -> tuple[Ints, Floats, Floats]:
-        """Body (n,) of each unknown, loads (n,) of unit accelerations along the body's axes."""
+        """Body (n,) of each unknown, and load vectors (n,) of unit accelerations along its axes."""
         manifold, density = self._model.manifold, self._model.density[:, None]
         along_x, along_y = (self._model.body_load(density * axis) for axis in np.eye(2))
         body = np.repeat(manifold.cover_body, np.diff(manifold.cover_offset))
         return body, along_x, along_y
 
     def work(self, before: State, after: State) -> float:
-        """Weight times the motion of the mass, be it in frames or in the unknowns."""
+        """Work (J) of the weight on the motion of axes and unknowns."""
         return self._volume.work(before, after, (self._weights.of(before), self._weights.of(after)))
 
     def forget(self) -> None:

@@ -1,4 +1,4 @@
-"""Inertia: mass times acceleration, and the pull outwards in bodies that turn."""
+"""The effect: inertia, with the centrifugal force in the rotating axes of bodies."""
 
 from typing import Self
 
@@ -14,11 +14,10 @@ from nmm.solvers.unchecked import product
 
 
 class Inertia(Effect):
-    """Centrifugal force ``rho omega^2 (X - Xc)`` in the turning axes of each body, and energy.
+    """Centrifugal force ``rho omega^2 (X - Xc)`` in the rotating axes of each body.
 
-    The integrator adds the mass itself. In axes that turn with the body its own rotation would
-    otherwise leave no trace in the stress. Where axes never turn, in the classical update and for
-    small displacements, there is none.
+    The integrator adds the mass. In fixed axes, as in the classical update and for small
+    displacements, there is no such force.
     """
 
     name = "inertia"
@@ -43,7 +42,7 @@ class Inertia(Effect):
         return product(self.mass, product(self._model.manifold.stretch_modes, spin**2))
 
     def spin(self, state: State) -> Floats:
-        """Return the mean rate of rotation (B,) of the bodies (rad/s)."""
+        """Return the mean angular velocity (B,) of the bodies (rad/s)."""
         return product(self._model.rigid_projection, state.velocity).reshape(-1, 3)[:, 2]
 
     def energy(self, state: State) -> float:

@@ -1,4 +1,4 @@
-"""How large a scene's load is at an instant."""
+"""Factors of loads and displacements of a scene at an instant."""
 
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 def load_factor(setup: Setup, load: "PlacedTable") -> Callable[[Instant], float]:
     """Return the factor of a load: its history, times the load factor if it is scaled.
 
-    Without ``[loading]`` all loads are scaled: from 0 to 1 in statics, by 1 in dynamics.
+    Without ``[loading]`` all loads are scaled: by 0 to 1 in statics, by 1 in dynamics.
     """
     loading, acting = setup.scene.loading, setup.acting
     if acting is not None:
@@ -26,9 +26,9 @@ def load_factor(setup: Setup, load: "PlacedTable") -> Callable[[Instant], float]
 
 
 def displacement_factor(setup: Setup, support: "SupportTable") -> Callable[[Instant], float]:
-    """Return the factor of a support's displacement: its history, times the load factor if scaled.
+    """Return the factor of a prescribed displacement: its history, times any load factor.
 
-    It is scaled when ``[loading]`` names it, or scales "all" of a scene without loads and the
+    It is scaled if ``[loading]`` names it, or scales "all" in a scene without loads and the
     displacement has no history.
     """
     loading, alone = setup.scene.loading, not setup.scene.loads and support.history is None
@@ -39,7 +39,7 @@ def displacement_factor(setup: Setup, support: "SupportTable") -> Callable[[Inst
 
 
 def factor_of(history: Sequence[tuple[float, float]] | None, time: float) -> float:
-    """Return the factor of a history of (time, factor) pairs, linear between and held beyond."""
+    """Return the factor of a history of (time, factor) pairs, linear between, constant beyond."""
     if history is None:
         return 1.0
     times, factors = np.transpose(history)

@@ -1,4 +1,4 @@
-"""Applied forces: at points and along edges; dead loads, fixed in direction."""
+"""The effect: dead loads at points and along edges."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from nmm.scene.tables.loading.loads import LoadTable as SceneLoad
 
 LEAST_ORDER = 4
-"""Least degree that the work of a traction along an edge is integrated to: that of most covers."""
+"""Least degree of the quadrature of tractions along an edge."""
 
 
 @dataclass(frozen=True)
@@ -29,15 +29,15 @@ class Load:
     Attributes
     ----------
     name
-        As the scene calls it.
+        Name in the scene.
     place
-        Where it acts.
+        The m points on which it acts.
     force
-        (m, 2) on each point at factor 1 (N).
+        (m, 2) force on each point at factor 1 (N).
     factor
-        From the instant to the factor.
+        Load factor as a function of the instant.
     steady
-        Whether it has no history.
+        Whether it is constant in time.
     """
 
     name: str
@@ -47,7 +47,7 @@ class Load:
     steady: bool = True
 
     def resultant(self, end: Instant) -> Floats:
-        """Sum (2,) of the forces at an instant (N)."""
+        """Resultant (2,) at an instant (N)."""
         return np.asarray(self.factor(end) * self.force.sum(axis=0))
 
 
@@ -67,7 +67,7 @@ class Loads(Effect):
         return cls(found, setup.model)
 
     def force(self, state: State, end: Instant) -> Floats:
-        """Return the loads in the bodies' axes."""
+        """Return the load vector (n,) in the axes of the bodies."""
         total = np.zeros(len(state.deformation))
         for load in self.loads:  # a handful of loads
             total += load.place.points.push(state, load.factor(end) * load.force)
@@ -80,7 +80,7 @@ class Loads(Effect):
         return joined(AppliedForces.on(self._model, one.place, f * one.force) for one, f in pairs)
 
     def work(self, before: State, after: State) -> float:
-        """Mean of the loads at both ends of the step times the motion of their points."""
+        """Work (J) of the mean of the loads at both ends of the step."""
         start, end = Instant.of(before), Instant.of(after)
         total = 0.0
         for load in self.loads:
@@ -94,7 +94,7 @@ class Loads(Effect):
         return all(load.steady for load in self.loads)
 
     def scaled_resultant(self, factor: float) -> float:
-        """Length of what the loads' sum gains from load factor 0 to ``factor`` (N)."""
+        """Magnitude of the change of the resultant from load factor 0 to ``factor`` (N)."""
         gain = np.zeros(2)
         for load in self.loads:
             gain += load.resultant(Instant(factor, factor))
@@ -106,7 +106,7 @@ def _load(setup: Setup, load: "SceneLoad") -> Load:
     if load.kind == "point":
         order, total = LEAST_ORDER, np.array(load.force)
     else:
-        # The work of a uniform traction is of the degree of the displacements.
+        # The work of a uniform traction has the degree of the displacements.
         order = max(LEAST_ORDER, setup.model.manifold.degree)
         total = np.array(load.traction) * setup.model.thickness
     place = acting_place(setup, "loads", load, order)

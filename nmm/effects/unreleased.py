@@ -1,9 +1,9 @@
-"""Forces of blocks that have left which still act on what stays: release by shares.
+"""Gradual release of the forces of excavated blocks.
 
-A plane stands for ground some way behind the face of a tunnel by the share of the forces at its
-wall that has been released (the convergence-confinement method: Panet and Guenot 1982). What the
-blocks exerted is what is out of balance once they are gone; it is held by forces at the faces they
-shared with what stays, which fade from stage to stage.
+A plane section at some distance behind the face of a tunnel is modelled by the share of the wall
+forces that has been released (the convergence-confinement method: Panet and Guenot 1982). What the
+blocks exerted is the residual once they are removed. It is balanced by forces at the faces that
+they shared with the remaining ground, which decrease from stage to stage.
 """
 
 from collections.abc import Mapping
@@ -22,23 +22,23 @@ from nmm.errors import FormulationError
 if TYPE_CHECKING:
     from nmm.effects.change import Change
 
-# Share of what is out of balance on the faces that forces there may miss.
+# Largest share of the residual that forces on the faces may leave.
 MISSED = 1e-3
 
 CarriedLoad = tuple[Reactions, Ints, Floats, Floats]
 
 
 class UnreleasedForces(Effect):
-    """Forces at the faces of blocks that left, held in shares that a stage changes.
+    """Forces at the faces of excavated blocks, by shares that stages change.
 
     Attributes
     ----------
     forces
-        What the blocks exerted, in full.
+        The full forces of the blocks.
     region
-        (k,) input region that each point is on.
+        (k,) input region of each point.
     first, last
-        (k,) share that is held at load factor 0 and 1 of the stage.
+        (k,) share that acts at load factors 0 and 1 of the stage.
     """
 
     name = "unreleased forces"
@@ -53,7 +53,7 @@ class UnreleasedForces(Effect):
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
-        """Return no forces: none have been held back yet."""
+        """Return no forces: nothing has been excavated yet."""
         return cls(setup)
 
     def _take(self, forces: Reactions, region: Ints, begin: Floats, goal: Floats) -> None:
@@ -61,13 +61,13 @@ class UnreleasedForces(Effect):
         self._points = forces.points(self._setup.model)
 
     def follow(self, change: "Change") -> "UnreleasedForces":
-        """Return the forces on the new model, on their way to the share of the new stage.
+        """Return the forces on the new model, with the shares of the new stage.
 
-        What an event changes within a stage goes on on its way.
+        An event within a stage leaves the shares as they are.
         """
         new, known = UnreleasedForces(change.setup), self.forces
         elements = np.full(len(known), -1)
-        for one in np.unique(self.region):  # blocks with faces that were laid bare
+        for one in np.unique(self.region):  # blocks with exposed faces
             at = np.flatnonzero(self.region == one)
             there = np.arange(len(change.setup.region_name)) == one
             elements[at] = elements_at(change.setup, known.position[at], there)
@@ -83,7 +83,7 @@ class UnreleasedForces(Effect):
         return new
 
     def receive_residual(self, change: "Change", force: Floats) -> None:
-        """See `Effect.receive_residual`: hold it by forces on the faces that were laid bare."""
+        """See `Effect.receive_residual`: balance it by forces on the exposed faces."""
         released = _released(change.setup)
         if released is None:
             return
@@ -98,9 +98,9 @@ class UnreleasedForces(Effect):
         )
         if not len(found):
             return
-        pushes = _held(change, found, place.weight[on], -force)
+        full = _balancing(change, found, place.weight[on], -force)
         whole = Reactions.sum(
-            [self.forces, Reactions(found.elements, found.position, pushes, found.beside)],
+            [self.forces, Reactions(found.elements, found.position, full, found.beside)],
             new.n_unknowns,
         )
         more = np.ones(len(found))
@@ -112,16 +112,16 @@ class UnreleasedForces(Effect):
         )
 
     def force(self, state: State, end: Instant) -> Floats:
-        """Return the forces that are still held."""
+        """Return the force (n,) of the shares that still act."""
         return self._points.push(state, self._share(end.load_factor) * self.forces.force)
 
     def work(self, before: State, after: State) -> float:
-        """Work of the mean of both ends of the step."""
+        """Work (J) of the mean of the forces at both ends of the step."""
         mean = (self._share(before.load_factor) + self._share(after.load_factor)) / 2
         return self._points.work(before, after, mean * self.forces.force)
 
     def history(self, state: State) -> Mapping[str, float]:
-        """Return the largest share that is still held."""
+        """Return the largest share that still acts."""
         share = self._share(state.load_factor)
         return {"share": float(share.max(initial=0.0))}
 
@@ -142,17 +142,18 @@ def _released(setup: Setup) -> float | None:
     return None if setup.acting is None else setup.acting.released
 
 
-def _held(change: "Change", at: Reactions, weight: Floats, force: Floats) -> Floats:
-    """Return the least forces (k, 2) in N at points that do on the unknowns what is out of balance.
+def _balancing(change: "Change", at: Reactions, weight: Floats, force: Floats) -> Floats:
+    """Return the forces (k, 2) (N) at points that balance ``force`` (n,) on the unknowns.
 
-    ``force`` (n,); tractions are least over the faces, whose shares of length are ``weight`` (k,).
+    Of all such forces the tractions have the least square mean over the faces; ``weight`` (k,) are
+    the lengths of the points.
 
     Raises
     ------
     FormulationError
-        Where no forces on the faces do.
+        No forces on the faces balance it.
     """
-    # One stage in some: the rest of a run needs no decomposition of its own.
+    # Imported here, as few stages need it.
     from scipy import linalg
 
     points, frames = at.points(change.new), change.state.frames

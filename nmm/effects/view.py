@@ -1,4 +1,4 @@
-"""An accepted state with what can be read from it."""
+"""An accepted state, as outputs and effects read it."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -20,9 +20,11 @@ class View:
     Attributes
     ----------
     model, state
-        Manifold with its materials; where it is and how fast.
+        Manifold with its materials, and the accepted state.
     contacts
-        Its C contact points; None without contact.
+        The C contact points; None without contact.
+        stress_of
+        Function of a state that returns mean Cauchy stresses (E, 3) in global axes (Pa).
     """
 
     model: "Model"

@@ -1,10 +1,10 @@
-"""Local damping: what speeds up is heavier, what slows down is lighter (Cundall 1987).
+"""Local non-viscous damping as a change of mass (Cundall 1987).
 
-Cundall's force on a mass is ``-alpha |F| sgn(v)``, ``F`` what is out of balance. With ``m a = F``
-less that force, ``m a = (1 - alpha s) F`` and ``s`` the sign of ``F v``: a mass of ``m / (1 -
-alpha s)``. Here the masses are elements, and what ``[[masses]]`` put on a body: ``s`` is the sign
-of the power that the acceleration gives to one, which no choice of unknowns changes, and the force
-takes energy of each.
+Cundall's force on a mass is ``-alpha |F| sgn(v)``, with the out-of-balance force ``F``. So
+``m a = (1 - alpha s) F``, where ``s`` is the sign of ``F v``: a mass of ``m / (1 - alpha s)``.
+Here the masses are those of elements, and of ``[[masses]]`` on a body. The sign is that of the
+power of their inertia, which does not depend on the choice of unknowns, so that energy is
+dissipated in each.
 """
 
 from typing import Self
@@ -21,11 +21,11 @@ from nmm.effects.base import Effect, Setup
 
 
 class LocalDamping(Effect):
-    """Mass of elements in a step, by whether they speed up or slow down at its start.
+    """Mass of elements that is larger while they accelerate and smaller while they decelerate.
 
-    A cycle at any frequency loses the same share of its energy: amplitudes fall by
-    ``sqrt((1 - alpha) / (1 + alpha))`` a half cycle, and the period grows. What falls freely gains
-    speed by ``1 - alpha`` of its weight.
+    Every half cycle, at any frequency, multiplies the amplitude by
+    ``sqrt((1 - alpha) / (1 + alpha))``, and the period grows. A body in free fall accelerates by
+    ``1 - alpha`` of gravity.
     """
 
     name = "local damping"
@@ -55,7 +55,7 @@ class LocalDamping(Effect):
         return f"{self._share:g} of what is out of balance, free fall included"
 
     def added_mass(self, state: State) -> csc_array:
-        """Return what the mass gains or loses by the signs at the start of the step."""
+        """Return the change of the mass (n, n) by the signs at the start of the step."""
         power = np.concatenate([self.power(state), self._power_of_points(state)])
         more = 1 / (1 - self._share * np.sign(power)) - 1
         if self._kept is None or not np.array_equal(self._kept[0], more):
@@ -63,7 +63,7 @@ class LocalDamping(Effect):
         return self._kept[1]
 
     def power(self, state: State) -> Floats:
-        """Return the power (E,) in W that the acceleration gives to each element."""
+        """Return the power (E,) of the inertia of each element (W)."""
         found = np.zeros(len(self._manifold.element_body))
         for group, masses in zip(self._manifold.groups, self._masses, strict=True):
             velocity, acceleration = (

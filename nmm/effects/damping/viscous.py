@@ -1,4 +1,4 @@
-"""Viscous damping by mass and by stiffness (Rayleigh)."""
+"""Rayleigh damping, proportional to mass and stiffness."""
 
 from collections.abc import Mapping
 from functools import cached_property
@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 class ViscousDamping(Effect):
     """Force ``-(a M + b K) v`` with the mass and the elastic stiffness of the material.
 
-    A mode of frequency ``w`` (rad/s) is damped by ``a / (2 w) + b w / 2`` of critical damping. Mass
-    damps motion against the axes of the scene, falling and flying too; stiffness damps strain
-    alone, and neither joints nor supports.
+    A mode of angular frequency ``w`` has the damping ratio ``a / (2 w) + b w / 2``. The mass term
+    damps all absolute motion, free flight too; the stiffness term damps strain alone, not the
+    springs of joints and supports.
     """
 
     name = "viscous damping"
@@ -48,12 +48,12 @@ class ViscousDamping(Effect):
 
     @property
     def turns_with_bodies(self) -> str:
-        """See `Effect.turns_with_bodies`: the stiffness is that of bodies as they were."""
+        """See `Effect.turns_with_bodies`: the stiffness is that of the reference configuration."""
         return "damping by stiffness" if self._stiffness > 0 else ""
 
     @property
     def external(self) -> bool:  # type: ignore[override]
-        """Whether momentum is lost: by mass."""
+        """Whether momentum is lost: by the mass term."""
         return self._mass > 0
 
     def damping(self, state: State) -> csc_array:
@@ -62,7 +62,7 @@ class ViscousDamping(Effect):
 
 
 class GroundDamping(ViscousDamping):
-    """The same with mass against ground that moves: it adds the force ``a M v`` of its velocity."""
+    """Rayleigh damping relative to moving ground: its velocity ``v`` adds the force ``a M v``."""
 
     name = "damping against the ground"
 
@@ -74,7 +74,7 @@ class GroundDamping(ViscousDamping):
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
-        """Build from ``[damping]`` with the support that it names."""
+        """Build from ``[damping]`` and the support that it names."""
         from nmm.effects.motion.record import motions_of
 
         damping = setup.scene.damping
@@ -90,11 +90,11 @@ class GroundDamping(ViscousDamping):
         return False
 
     def force(self, state: State, end: Instant) -> Floats:
-        """Return what the velocity of the ground drags along, in the bodies' axes."""
+        """Return the force (n,) of the velocity of the ground, in the axes of the bodies."""
         return self._push(state, self._velocity(end.time))
 
     def work(self, before: State, after: State) -> float:
-        """Mean of that force at both ends of the step times the motion of the mass."""
+        """Work (J) of the mean of that force at both ends of the step."""
         mean = (self._velocity(before.time) + self._velocity(after.time)) / 2
         heavy, arm = self._masses
         way = heavy[:, None] * (after.frames.centre - before.frames.centre)
@@ -111,14 +111,14 @@ class GroundDamping(ViscousDamping):
 
     @cached_property
     def _masses(self) -> tuple[Floats, Floats]:
-        """Mass (B,) of the bodies, and times the arm of its centre from the centroid (B, 2)."""
+        """Mass (B,) of the bodies (kg), and its first moment about the centroid (B, 2) (kg m)."""
         modes = self._model.manifold.rigid_modes
         moments = modes.T @ (self._model.mass @ modes)
         arm = np.stack([moments.diagonal(1)[1::3], -moments.diagonal(2)[::3]], axis=1)
         return moments.diagonal()[::3], arm
 
     def _push(self, state: State, velocity: Floats) -> Floats:
-        """Force (n,) of the mass dragged along, as of bodies that move with a velocity (2,)."""
+        """Force (n,) of the mass term of bodies that move with a velocity (2,) (m/s)."""
         way, bodies = np.zeros((self._model.manifold.n_bodies, 3)), len(state.frames.centre)
         way[:, :2] = state.frames.to_body(np.arange(bodies), np.tile(velocity, (bodies, 1)))
         return self._mass * product(

@@ -1,1 +1,1 @@
-"""What effects are given: the setup that they are built from, and what they are told of a step."""
+"""What effects are given: the setup from which they are built, and the data of a step."""

@@ -1,4 +1,4 @@
-"""What effects are built from."""
+"""The setup from which effects are built."""
 
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -18,10 +18,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class StageLoads:
-    """How loads act in a stage: by name, those that ``grows`` in it and those that ``leaves``.
+    """How loads act in a stage.
 
-    ``released`` is the share of what removed blocks exerted that is gone at its end; None leaves
-    as it is what earlier stages hold back.
+    Attributes
+    ----------
+    grows, leaves
+        Names of loads that grow from zero in the stage, and of those that fade out.
+    released
+        Share of the forces of excavated blocks that is released at its end; None leaves the shares
+        of earlier stages as they are.
     """
 
     grows: frozenset[str] = frozenset()
@@ -29,7 +34,7 @@ class StageLoads:
     released: float | None = None
 
     def share(self, name: str, load_factor: float) -> float:
-        """Return the share of a load at a load factor that grows from 0 to 1 in the stage."""
+        """Return the share of a load at a load factor, which grows from 0 to 1 in the stage."""
         if name in self.grows:
             return load_factor
         return 1.0 - load_factor if name in self.leaves else 1.0
@@ -37,7 +42,7 @@ class StageLoads:
 
 @dataclass(frozen=True)
 class Setup:
-    """What effects are built from.
+    """A scene, its formulation and the model, from which effects are built.
 
     Attributes
     ----------
@@ -46,20 +51,20 @@ class Setup:
     model
         Manifold and materials.
     geometry
-        Blocks and cracks that the manifold covers.
+        Blocks and cracks of the model.
     region_name, region_material
-        Name and material (index in the scene's order) of each input region.
+        Name of each input region, and number of its material in the order of the scene (N,).
     start
         State at the start of the run.
     origin
-        (2,) where the axes of model and states lie in those of the scene (m).
+        (2,) origin of the axes of model and states in those of the scene (m).
     acting
         How loads act in a stage; None in scenes without stages.
     kinematics
-        How bodies move and strain.
+        Kinematics of bodies: small, corotational or finite.
     table
-        What an effect's own ``[effects.NAME]`` says, an `Effect.Table` in the axes of the model;
-        None for effects that have keys of the scene.
+        The table ``[effects.NAME]`` of an effect of one's own, an `Effect.Table` in the axes of the
+        model; None for built-in effects.
     """
 
     scene: "Scene"
@@ -76,11 +81,11 @@ class Setup:
 
     @property
     def small(self) -> bool:
-        """Whether displacements are small: bodies' axes stay as they are."""
+        """Whether displacements are small, so that the axes of bodies are fixed."""
         return self.kinematics.small
 
     def regions(self, name: str | None) -> Bools | None:
-        """Return which regions a name means: a block, all blocks of a tessellation, or "all"."""
+        """Return the regions (N,) of a name: of a block or a tessellation; None for all."""
         if name is None or name == "all":
             return None
         return np.array([one == name or one.startswith(f"{name}.") for one in self.region_name])

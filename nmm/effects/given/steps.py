@@ -1,4 +1,4 @@
-"""What effects are told of a step, and what they say of their force through it."""
+"""The data of a step that effects are given, and the force that they return for it."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -12,14 +12,14 @@ from nmm.assembly.motion import State
 
 @dataclass(frozen=True)
 class Instant:
-    """The end of the step being solved.
+    """The end of the step that is being solved.
 
     Attributes
     ----------
     time
-        s; in statics the load factor.
+        Time (s); in statics the load factor.
     load_factor
-        Factor on the scaled loads.
+        Factor of the scaled loads.
     """
 
     time: float
@@ -27,23 +27,23 @@ class Instant:
 
     @classmethod
     def of(cls, state: State) -> Self:
-        """Return the instant at which a state stands."""
+        """Return the instant of a state."""
         return cls(state.time, state.load_factor)
 
 
 @dataclass(frozen=True)
 class Span:
-    """How a step weighs the forces at its ends.
+    """The weights of a step on the forces at its ends.
 
     Attributes
     ----------
     step
-        Its length (s); None in statics.
+        Its duration (s); None in statics.
     weight
-        Share of the end of the step.
+        Weight of its end.
     half
-        Whether bodies move with the mean of the velocities at both ends, so that forces between
-        the mean places of two points keep angular momentum.
+        Whether bodies move by the mean of the velocities at both ends (midpoint rule), so that
+        forces along the line between the midpoints of two points conserve angular momentum.
     """
 
     step: float | None
@@ -53,18 +53,18 @@ class Span:
 
 @dataclass(frozen=True)
 class StepForce:
-    """What an effect does through a step.
+    """The force of an effect through a step.
 
     Attributes
     ----------
     force
-        (n,) its weighed force on the unknowns.
+        (n,) weighted force on the unknowns.
     stiffness
-        Makes the matrix (n, n) of about how it falls with the increment (`Effect.symmetric`).
+        Returns its tangent (n, n), minus the derivative by the increment (see `Effect.symmetric`).
     memory
-        What the effect remembers if the step is accepted.
+        The memory of the effect if the step is accepted.
     rounding
-        (n,) what of the force rounding of places makes; None is nothing that matters.
+        (n,) error of the force by rounding; None where it is negligible.
     """
 
     force: Floats

@@ -1,7 +1,8 @@
-"""Blocks whose material a stage changes: they keep the stress that they have.
+"""The effect: blocks whose material a stage changes keep their stress.
 
-What the new law does not make of the strain so far is a stress at material points. It acts as one
-from the start does, so that the new law answers for strains from here on alone.
+The difference between the present stress and that of the new law at the present strain is a stress
+at material points. It acts like an initial stress, so that the new law determines only the stress
+of further strain.
 """
 
 from dataclasses import dataclass, replace
@@ -24,16 +25,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class KeptStress:
-    """A stress at the points of blocks whose material has changed.
+    """The stress difference at the points of blocks whose material has changed.
 
     Attributes
     ----------
     points
-        Q points.
+        The Q points.
     stress
-        (Q, 3) what their law does not make of the strain, in body axes (Pa).
+        (Q, 3) present stress minus that of the new law, in body axes (Pa).
     beside
-        (Q, 3) the initial stress that acts there too.
+        (Q, 3) initial stress at the points (Pa).
     """
 
     points: StressPoints
@@ -42,7 +43,7 @@ class KeptStress:
 
 
 class ChangedMaterials(Effect):
-    """Internal force ``- int B^T tau`` of the stress that changed blocks keep."""
+    """Force ``- int B^T tau`` of the stress differences ``tau`` of changed blocks."""
 
     name = "changed materials"
     external = False
@@ -54,7 +55,7 @@ class ChangedMaterials(Effect):
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
-        """Return no stress: no material has changed yet."""
+        """Return no stress, as no material has changed yet."""
         _refuse(setup)
         none = np.zeros(len(setup.model.manifold.elements), dtype=bool)
         empty = np.zeros((0, 3))
@@ -63,7 +64,7 @@ class ChangedMaterials(Effect):
         )
 
     def follow(self, change: "Change") -> Effect:
-        """Return the stress on the new model, with that of the materials that have just changed."""
+        """Return the stress on the new model, with that of materials that change now."""
         if change.kept is not None:
             return ChangedMaterials(change.new, change.kept)
         region = change.old.manifold.element_region[self.kept.points.rule.owner]
@@ -73,7 +74,7 @@ class ChangedMaterials(Effect):
         return ChangedMaterials(change.new, kept)
 
     def kept_by(self, old: Setup, new: Setup, before: State, after: State) -> KeptStress:
-        """Return what changed blocks keep as they go from one model to the next."""
+        """Return the stress differences after a change of materials, on the new model."""
         changed = np.flatnonzero(old.region_material != new.region_material)
         _unheated(old, new, changed, before)
         had = old.model.manifold.element_region[self.kept.points.rule.owner]
@@ -87,14 +88,14 @@ class ChangedMaterials(Effect):
         return KeptStress(points, tau, _initial(new, points))
 
     def _at(self, old: Model, new: Model, points: StressPoints) -> Floats:
-        """The stress (Q, 3) so far at points of the new model; zero where there was none."""
+        """Stress differences (Q, 3) so far at points of the new model; zero without any."""
         if not len(self.kept.points):
             return np.zeros((len(points), 3))
         near = nearest_points(old, self.kept.points, new, points)
         return np.where(near[:, None] < 0, 0.0, self.kept.stress[near])
 
     def force(self, state: State, end: Instant) -> Floats:
-        """Return the internal force, which is constant in axes that turn."""
+        """Return the force (n,), which is constant in the axes of bodies."""
         return self._force
 
     def mean_stress(self, state: State) -> Floats:
@@ -106,14 +107,14 @@ class ChangedMaterials(Effect):
         return found
 
     def stress_at(self, elements: Ints, points: Floats, time: float) -> Floats:
-        """See `Effect.stress_at`: that of the nearest point."""
+        """See `Effect.stress_at`: the stress of the nearest material point."""
         if not len(self.kept.points):
             return np.zeros((len(elements), 3))
         at = nearest(self.kept.points.rule, elements, points)
         return np.where(at[:, None] < 0, 0.0, self.kept.stress[at])
 
     def energy(self, state: State) -> float:
-        """Energy (J) that it adds to that of the strain and of the initial stress."""
+        """Energy (J) that it adds to those of the strain and of the initial stress."""
         tau, rule = self.kept.stress, self.kept.points.rule
         elastic = self._model.elasticity[rule.owner]
         strain = np.linalg.solve(elastic, (tau / 2 + self.kept.beside)[:, :, None])[:, :, 0]
@@ -123,7 +124,7 @@ class ChangedMaterials(Effect):
 
 
 def remembered(setup: Setup, old: Setup, kept: KeptStress, after: State, declared: State) -> State:
-    """Return the state whose matter knows of the stress that it keeps."""
+    """Return the state with the kept stress in the history of its material points."""
     matter, model = setup.model.matter, setup.model
     if not isinstance(matter, Matter):
         return after
@@ -159,7 +160,7 @@ def _initial(setup: Setup, points: StressPoints) -> Floats:
 
 
 def _former(old: Setup, new: Setup, points: StressPoints, before: State, after: State) -> Floats:
-    """Stress (Q, 3) of the old law, beyond what acts besides, at points of the new model."""
+    """Stress (Q, 3) of the old law, without added stresses, at points of the new model."""
     region = new.model.manifold.element_region[points.rule.owner]
     found = _by_region(old, region) @ points.strain(after.deformation)[:, :, None]
     found, matter = found[:, :, 0], old.model.matter
@@ -170,7 +171,7 @@ def _former(old: Setup, new: Setup, points: StressPoints, before: State, after: 
 
 
 def _answer(old: Setup, new: Setup, points: StressPoints, after: State, was: Floats) -> Floats:
-    """Stress (Q, 3) that the new law makes: of elastic strain where it remembers what flowed."""
+    """Stress (Q, 3) of the new law at the present strain; at the elastic one if it has history."""
     region = new.model.manifold.element_region[points.rule.owner]
     elastic = np.linalg.solve(_by_region(old, region), was[:, :, None])[:, :, 0]
     strain = np.where(_alike(old, new)[region, None], elastic, points.strain(after.deformation))
@@ -185,14 +186,14 @@ def _by_region(setup: Setup, region: Ints) -> Floats:
 
 
 def _alike(old: Setup, new: Setup) -> Bools:
-    """(N,) whether regions have a law of one kind before and after, and remember on."""
+    """(N,) whether regions have a law of the same class before and after."""
     kinds = [type(law) for law in new.model.laws]
     pairs = zip(old.region_material, new.region_material, strict=True)
     return np.array([kinds[one] is kinds[two] for one, two in pairs])
 
 
 def _places_of(points: StressPoints, among: StressPoints) -> Ints:
-    """Return where points (Q,) are ``among`` others of the same manifold; -1 where they are not."""
+    """Return the number of points (Q,) ``among`` others of the same manifold; -1 where absent."""
     one, other = points.rule.owner, among.rule.owner
     found = np.full(len(points), -1)
     found[np.isin(one, other)] = np.flatnonzero(np.isin(other, one))
@@ -200,7 +201,7 @@ def _places_of(points: StressPoints, among: StressPoints) -> Ints:
 
 
 def _unheated(old: Setup, new: Setup, changed: Ints, state: State) -> None:
-    """Refuse regions of matter that has swollen whose law is of another kind from here on."""
+    """Refuse another class of law for regions with thermal strain."""
     matter = old.model.matter
     if SWELLING not in state.history or not isinstance(matter, Matter):
         return
@@ -215,7 +216,7 @@ def _unheated(old: Setup, new: Setup, changed: Ints, state: State) -> None:
 
 
 def _refuse(setup: Setup) -> None:
-    """Refuse what strain is no matter of small strain, or whose stress is none of points."""
+    """Refuse finite strain and projected volumes, whose stress is not that of material points."""
     if setup.kinematics.finite or setup.model.projected:
         key = '[rotation] update = "finite"' if setup.kinematics.finite else "[cover] volumetric"
         raise FormulationError(

@@ -1,4 +1,4 @@
-"""Stress in blocks at the start of a run, turning with the material."""
+"""The effect: initial stress of blocks, which turns with the material."""
 
 from dataclasses import replace
 from functools import cached_property
@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 
 
 class InitialStress(Effect):
-    """Internal force ``- int B^T sigma0``; ``given`` in body axes.
+    """Force ``- int B^T sigma0`` of the initial stress ``given`` in body axes.
 
-    With the elasticity ``D`` it stores ``1/2 sigma0 : D^-1 sigma0`` before anything moves, and
-    ``sigma0 : eps`` more under a strain, so that strain energy is that of the whole stress.
+    Its energy is ``1/2 sigma0 : D^-1 sigma0 + sigma0 : eps``, with the elasticity ``D`` and the
+    strain ``eps``, so that the strain energy is that of the total stress.
     """
 
     name = "initial stress"
@@ -30,27 +30,27 @@ class InitialStress(Effect):
 
     _turned: "TurningStress | None" = None
 
-    def __init__(self, model: Model, given: StressAtStart, bends: bool = False) -> None:
+    def __init__(self, model: Model, given: StressAtStart, finite: bool = False) -> None:
         self.given, self._model = given, model
         self._force = -given.force(model)
-        if bends:
+        if finite:
             from nmm.effects.initial.turning_stress import TurningStress
 
-            self._turned = TurningStress.of(model, self.stress_at, stands=True)
+            self._turned = TurningStress.of(model, self.stress_at, constant=True)
 
     @property
     def stress(self) -> Floats:
-        """Mean (E, 3) of the elements (Pa)."""
+        """Mean stress (E, 3) of the elements in body axes (Pa)."""
         return self.given.mean[:, :3]
 
     @cached_property
     def _stored(self) -> float:
-        """Energy (J) of the stress before anything moves."""
+        """Energy (J) of the stress without strain."""
         return self.given.energy(self._model)
 
     @property
     def nonlinear(self) -> bool:
-        """See `Effect.nonlinear`: it does in bodies that bend by any angle."""
+        """See `Effect.nonlinear`: true in finite strain."""
         return self._turned is not None
 
     @classmethod
@@ -59,7 +59,7 @@ class InitialStress(Effect):
         return cls(setup.model, StressAtStart.declared(setup), setup.kinematics.finite)
 
     def follow(self, change: "Change") -> Effect:
-        """Return the stress of each element from those that it comes from; else as declared."""
+        """Return the stress of each element from its parents; as declared where it has none."""
         given = StressAtStart.declared(change.setup)
         if given.even and self.given.even:
             mean = given.mean.copy()
@@ -68,7 +68,7 @@ class InitialStress(Effect):
         return InitialStress(change.new, given, change.setup.kinematics.finite)
 
     def begin(self, state: State) -> State:
-        """Return the start with material points that know of the stress."""
+        """Return the state with the stress in the history of material points."""
         matter = self._model.matter
         if not isinstance(matter, Matter):
             return state
@@ -78,7 +78,7 @@ class InitialStress(Effect):
         return replace(state, history=history)
 
     def force(self, state: State, end: Instant) -> Floats:
-        """Return the internal force, which is constant where bodies have axes that turn."""
+        """Return the force (n,), which is constant in the axes of bodies."""
         return self._force if self._turned is None else self._turned.force(state, end)
 
     def step_force(self, before: State, after: State, span: Span) -> StepForce:
@@ -95,7 +95,7 @@ class InitialStress(Effect):
         return self.given.at(self._model, elements, points)[:, :3]
 
     def energy(self, state: State) -> float:
-        """Energy (J) that the stress adds to that of the strain, ``1/2 eps : D eps``."""
+        """Energy (J) that the stress adds to the elastic one, ``1/2 eps : D eps``."""
         if self._turned is not None:
             return self._stored + self._turned.energy(state)
         return self._stored - float(self._force @ state.deformation)

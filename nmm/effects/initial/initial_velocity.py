@@ -1,4 +1,4 @@
-"""Velocity of blocks at the start of a run."""
+"""The effect: velocity of blocks at the start of a run."""
 
 from dataclasses import replace
 from typing import Self

@@ -1,4 +1,4 @@
-"""The stress in the ground before anything moves: even in a block, or growing with depth."""
+"""The initial stress field: uniform in a block, or linear with depth."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -21,14 +21,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class StressAtStart:
-    """Stress of elements, linear in y.
+    """Stress of elements in body axes, linear in y.
 
     Attributes
     ----------
     mean
-        (E, 4) xx, yy, xy and out of the plane at the centroids (Pa); nan where that is not given.
+        (E, 4) xx, yy, xy and zz at the centroids (Pa); zz is nan where it is not given.
     slope
-        (E, 4) by y (Pa/m).
+        (E, 4) derivative by y (Pa/m).
     """
 
     mean: Floats
@@ -36,13 +36,13 @@ class StressAtStart:
 
     @classmethod
     def constant(cls, stress: Floats) -> Self:
-        """Return a stress (E, 3) that is even in each element."""
+        """Return a stress (E, 3) that is uniform in each element (Pa)."""
         mean = np.column_stack([stress, np.full(len(stress), np.nan)])
         return cls(mean, np.zeros_like(mean))
 
     @classmethod
     def declared(cls, setup: "Setup") -> Self:
-        """Return that of ``[[initial_stresses]]``; later tables overwrite earlier ones."""
+        """Return the stress of ``[[initial_stresses]]``; later tables overwrite earlier ones."""
         region = setup.model.manifold.element_region
         height = centroids(setup.model.manifold.elements)[:, 1]
         mean, slope = np.zeros((len(region), 4)), np.zeros((len(region), 4))
@@ -57,20 +57,20 @@ class StressAtStart:
 
     @property
     def even(self) -> bool:
-        """Whether it is constant in each element."""
+        """Whether it is uniform in each element."""
         return not self.slope.any()
 
     def at(self, model: Model, elements: Ints, points: Floats) -> Floats:
-        """Return it (m, 4) at reference points (m, 2) in elements (m,)."""
+        """Return the stress (m, 4) at reference points (m, 2) of elements (m,) (Pa)."""
         above = points[:, 1] - centroids(model.manifold.elements)[elements, 1]
         return np.asarray(self.mean[elements] + above[:, None] * self.slope[elements])
 
     def within(self, model: Model) -> Callable[[Ints, Floats], Floats]:
-        """Return what gives its components in the plane (m, 3) as `at` does."""
+        """Return a function like `at` of the components in the plane (m, 3)."""
         return lambda elements, points: self.at(model, elements, points)[:, :3]
 
     def force(self, model: Model) -> Floats:
-        """Return the integral of ``B^T sigma`` (n,): that of the means, and of what is linear."""
+        """Return the integral (n,) of ``B^T sigma`` (N)."""
         found = model.stress_load(self.mean[:, :3])
         if self.even:
             return found
@@ -80,7 +80,7 @@ class StressAtStart:
         return found + model.thickness * points.force(beyond)
 
     def energy(self, model: Model) -> float:
-        """Return what it stores (J): half of it times the strain that it would make."""
+        """Return its elastic energy (J), ``1/2 int sigma : D^-1 sigma``."""
         area = areas(model.manifold.elements)
         found = float(_density(model, self.mean) @ area)
         if not self.even:
@@ -117,14 +117,14 @@ def _refuse_across(setup: "Setup", number: int, regions: Bools | None) -> None:
 
 
 def _density(model: Model, stress: Floats) -> Floats:
-    """Elastic energy (E,) of a stress (E, 4) for each volume."""
+    """Elastic energy density (E,) of stresses (E, 4) (J/m3)."""
     in_plane = stress[:, :3]
     strain = np.linalg.solve(model.elasticity, in_plane[:, :, None])[:, :, 0]
     return np.asarray(np.einsum("ei,ei->e", in_plane, strain) / 2)
 
 
 def _line(item: "InitialStressTable", origin: float) -> tuple[Floats, Floats]:
-    """Return the stress (4,) at y = 0 and its slope (4,) by y, of a table in the model's axes."""
+    """Return the stress (4,) of a table at y = 0 of the model's axes, and its slope (4,) by y."""
     if item.stress is not None:
         across = np.nan if item.across is None else item.across
         return np.array([*item.stress, across]), np.zeros(4)

@@ -1,4 +1,4 @@
-"""The stress of an effect on bodies that bend by any angle: it turns and stretches with them."""
+"""Stress of an effect in finite strain, where it turns and stretches with the material."""
 
 from collections.abc import Callable
 from functools import partial
@@ -14,26 +14,26 @@ from nmm.effects.base import Instant, Span, StepForce
 
 
 class TurningStress:
-    """A stress that is given at material points.
+    """A stress given at the material points.
 
     Parameters
     ----------
     given
-        What stresses at the points do.
+        Forces, stiffness and energy of stresses at the points.
     at
-        From a time of the run (s) to the stress (Q, 3).
+        Function of time (s) that returns the stress (Q, 3) (Pa).
     """
 
     def __init__(self, given: GivenStress, at: Callable[[float], Floats]) -> None:
         self._given, self._at = given, at
 
     @classmethod
-    def of(cls, model: Model, stress_at: StressAt, stands: bool = False) -> Self:
-        """Return that of an effect, see `Effect.stress_at`; one that ``stands`` is asked once."""
+    def of(cls, model: Model, stress_at: StressAt, constant: bool = False) -> Self:
+        """Return the stress of an effect by its `Effect.stress_at`, called once if ``constant``."""
         matter = finite_matter(model)
         rule = matter.points.rule
         at = partial(stress_at, rule.owner, rule.points)
-        if stands:
+        if constant:
             once = at(0.0)
             return cls(GivenStress(matter), lambda time: once)
         return cls(GivenStress(matter), at)
@@ -43,7 +43,7 @@ class TurningStress:
         return -self._given.force(self._at(end.time), state.deformation)
 
     def step_force(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.step_force`: by the means of both ends in time, which conserve energy."""
+        """See `Effect.step_force`: in time, the means of both ends, which conserve energy."""
         stress, ends, share = self._at(after.time), [after.deformation], 1.0
         if span.weight < 1:
             stress, share = (self._at(before.time) + stress) / 2, 0.5
@@ -52,11 +52,11 @@ class TurningStress:
         return StepForce(force, lambda: self._given.stiffness(stress, share))
 
     def energy(self, state: State) -> float:
-        """Energy (J) that it adds to that of the strain."""
+        """Energy (J) that it adds to the elastic one."""
         return self._given.energy(self._at(state.time), state.deformation)
 
     def work(self, before: State, after: State) -> float:
-        """Work (J) of the change of the stress, on the mean strain of both ends."""
+        """Work (J) of the change of the stress at the mean strain of both ends."""
         change = self._at(after.time) - self._at(before.time)
         ends = (self._given.energy(change, one.deformation) for one in (before, after))
         return sum(ends) / 2

@@ -1,4 +1,4 @@
-"""What an expression of x, y and t is worth, in floating numbers."""
+"""Evaluation of expressions of x, y and t in floating-point numbers."""
 
 import ast
 from typing import Any
@@ -23,14 +23,14 @@ _COMPARED: dict[type[ast.cmpop], Any] = {
 
 
 def evaluated(expression: Expression, points: Floats, time: float) -> Floats:
-    """Return the values (m,) at points (m, 2) in m, at a time in s; they may be infinite."""
+    """Return the values (m,) at points (m, 2) (m) and a time (s); they may be infinite or nan."""
     known = {"x": points[:, 0], "y": points[:, 1], "t": np.float64(time), **CONSTANTS}
     with np.errstate(all="ignore"):
         return np.broadcast_to(_value(expression.tree, known), len(points)).astype(float)
 
 
 def _value(node: ast.expr, known: dict[str, Any]) -> Any:
-    """Value of a tree that was checked when it was read."""
+    """Value of a syntax tree, which was checked when it was read."""
     match node:
         case ast.Constant(value=int() | float() as number):
             return np.float64(number)

@@ -1,4 +1,4 @@
-"""Tractions along edges and forces on volume that are fields of place and time; dead loads."""
+"""Tractions along edges and body forces that are fields of place and time; dead loads."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -20,24 +20,24 @@ from nmm.effects.loading.fields import ValueField
 if TYPE_CHECKING:
     from nmm.scene.tables.loading.loads import LoadTable
 
-# Degree of polynomials that fields times functions of the covers are integrated to, beyond theirs.
+# Degree of the quadrature of a field times a displacement, beyond that of the displacement.
 BEYOND_FUNCTIONS = 6
 
 
 @dataclass(frozen=True)
 class SpreadLoad:
-    """A field over points of the material.
+    """A field of tractions or body forces at quadrature points.
 
     Attributes
     ----------
     place, share
-        The m points, and the (m,) area or volume of each.
+        The m points, and the area (m2) or volume (m3) of each (m,).
     field, factor
-        Force over that area or volume, and its factor.
+        Force over area (Pa) or volume (N/m3), and the load factor.
     steady
-        Whether neither depends on the time.
+        Whether both are constant in time.
     inside
-        (E,) which elements it fills; None along edges.
+        (E,) which elements it acts in; None along edges.
     """
 
     place: Place
@@ -48,12 +48,12 @@ class SpreadLoad:
     inside: Bools | None = None
 
     def forces(self, end: Instant) -> Floats:
-        """Forces (m, 2) on the points at an instant (N)."""
+        """Forces (m, 2) on the points at an instant, in global axes (N)."""
         values = self.field.values(self.place.position, end.time)
         return np.asarray(self.factor(end) * self.share[:, None] * values)
 
     def applied_forces(self, model: Model, end: Instant) -> AppliedForces:
-        """Forces at an instant as stress intensities know them."""
+        """See `Effect.applied_forces`, at an instant."""
         inside = self.inside
         if inside is None:
             return AppliedForces.on(model, self.place, self.forces(end))
@@ -74,9 +74,9 @@ class SpreadLoad:
         factor: Callable[[Instant], float] = lambda end: 1.0,
         steady: bool = True,
     ) -> Self:
-        """Spread a field over the volume of input regions (N,), all of them where None.
+        """Return a field of body forces in input regions (N,); None for all.
 
-        ``order`` is the degree of polynomials that are integrated exactly.
+        ``order`` is the degree of the quadrature.
         """
         manifold = model.manifold
         rule = polygon_rule(manifold.elements, order)
@@ -91,7 +91,7 @@ class SpreadLoad:
 
 
 class FieldLoads(Effect):
-    """All loads of a scene that are given by a field; they keep their direction."""
+    """All loads of a scene that are given by fields: dead loads."""
 
     name = "field loads"
 
@@ -110,14 +110,14 @@ class FieldLoads(Effect):
         return all(load.steady for load in self.loads)
 
     def force(self, state: State, end: Instant) -> Floats:
-        """Return the loads in the bodies' axes."""
+        """Return the load vector (n,) in the axes of the bodies."""
         total = np.zeros(len(state.deformation))
         for load in self.loads:  # a handful of loads
             total += load.place.points.push(state, load.forces(end))
         return total
 
     def work(self, before: State, after: State) -> float:
-        """Mean of the loads at both ends of the step times the motion of their points."""
+        """Work (J) of the mean of the loads at both ends of the step."""
         total = 0.0
         for load in self.loads:
             first, last = (load.forces(Instant.of(state)) for state in (before, after))

@@ -1,4 +1,4 @@
-"""A field of two values over places and time: from expressions, or from a table of values."""
+"""Vector fields over place and time: from expressions, or from a table of values."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
     from nmm.scene.tables.loading.fields import FieldTable
 
-# Places of a table lie on a line when they are this close to one, in sizes of them all; and points
-# as far outside of them are still among them.
+# Distance from a line below which places of a table count as on it, and distance outside of them
+# within which values are extrapolated; both over the size of the table.
 ON_LINE, OUTSIDE = 1e-9, 1e-6
 
 Interpolation = Callable[[Floats], Floats]
@@ -27,18 +27,18 @@ Interpolation = Callable[[Floats], Floats]
 
 @dataclass(frozen=True)
 class ValueField:
-    """Two values over places and time.
+    """A vector field over place and time.
 
     Attributes
     ----------
     varies
-        Whether it depends on the time.
+        Whether it depends on time.
     of
-        From points (m, 2) in the scene's axes and a time to values (m, 2).
+        Function of points (m, 2) in the axes of the scene and a time, returning values (m, 2).
     origin
         (2,) where the axes of the model lie in those of the scene (m).
     what
-        What it is of, for errors.
+        The table of the scene that it belongs to, for errors.
     """
 
     varies: bool
@@ -60,12 +60,12 @@ class ValueField:
         return cls(any(one.varies for one in parts), values, setup.origin, what)
 
     def checked(self, points: Floats, setup: Setup) -> None:
-        """Refuse values that are not finite as the stage begins, or as it ends.
+        """Refuse values that are not finite at the start or the end of the stage.
 
         Raises
         ------
         SceneError
-            As `values` does, which else would be in the midst of a run.
+            As `values`, which would raise it in the middle of a run.
         """
         begin = setup.start.time
         for time in (begin, begin + (setup.scene.duration or 0.0)):
@@ -77,7 +77,7 @@ class ValueField:
         Raises
         ------
         SceneError
-            Where a value is no finite number, naming the place.
+            A value is not finite; with its place.
         """
         places = points + self.origin
         found = self.of(places, time)
@@ -97,14 +97,14 @@ class ValueField:
 
 @dataclass(frozen=True)
 class ValueTable:
-    """Values at places that are the same at all times.
+    """Values at fixed places and times, linear between them.
 
     Attributes
     ----------
     times
-        (k,) increasing (s).
+        (k,) times, increasing (s).
     places
-        (n, 2) m.
+        (n, 2) places (m).
     known
         (k, n, 2) values.
     """
@@ -115,12 +115,12 @@ class ValueTable:
 
     @classmethod
     def of(cls, table: "FieldTable") -> Self:
-        """Return the values of a scene's table.
+        """Return the values of a table of the scene.
 
         Raises
         ------
         SceneError
-            Places that are not the same at every time, or stand twice.
+            Places differ between times, or one is given twice.
         """
         rows = np.array(table.rows)
         if rows.shape[1] == 4:
@@ -137,7 +137,7 @@ class ValueTable:
         return cls(times, parts[0, :, :2], table.scale * parts[:, :, 2:])
 
     def values(self, points: Floats, time: float) -> Floats:
-        """Return the values (m, 2) at points (m, 2); not numbers outside of the places."""
+        """Return the values (m, 2) at points (m, 2) and a time (s); nan outside of the places."""
         after = int(np.clip(np.searchsorted(self.times, time), 1, max(len(self.times) - 1, 1)))
         if len(self.times) == 1:
             return self._over(0)(points)
@@ -167,7 +167,7 @@ class ValueTable:
 
     @cached_property
     def _line(self) -> tuple[Floats, Floats] | None:
-        """Start and direction of the line on which all places lie; None where they do not."""
+        """Centre and direction of the line on which all places lie; None if they do not."""
         centre = self.places.mean(axis=0)
         _, sizes, axes = np.linalg.svd(self.places - centre)
         if len(sizes) > 1 and sizes[1] > ON_LINE * sizes[0]:

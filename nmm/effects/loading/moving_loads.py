@@ -1,4 +1,4 @@
-"""Forces that travel along edges."""
+"""The effect: forces that travel along edges."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -16,27 +16,28 @@ from nmm.effects.load_factor import load_factor
 if TYPE_CHECKING:
     from nmm.scene.tables.loading.loads import LoadTable
 
-# Degree of polynomials that a spread force is integrated to, beyond that of the displacements.
+# Degree of the quadrature of a spread force, beyond that of the displacement.
 BEYOND_DISPLACEMENTS = 4
 
 
 @dataclass(frozen=True)
 class MovingLoad:
-    """A force from the first to the second point of a segment (2, 2), spread over a length or not.
+    """A force that travels from the first to the second point of a segment.
 
     Attributes
     ----------
     segment
-        m.
+        (2, 2) the two points (m).
     ends, elements
-        (k, 2) where the pieces of boundary along the segment begin and end (m from its first
-        point), in order, and the elements (k,) that they belong to.
+        (k, 2) begin and end of the boundary edges along the segment, in order (m from its first
+        point), and their elements (k,).
     force, factor
-        (2,) N, and its factor.
+        (2,) force (N), and the load factor.
     start, speed, spread
-        When its front sets out (s), how fast (m/s), and the length behind the front (m).
+        Start of its front (s), its speed (m/s), and the length behind the front over which the
+        force is spread (m); 0 for a point force.
     regions
-        (N,) input regions that it goes over; None is all.
+        (N,) input regions that it acts on; None for all.
     """
 
     segment: Floats
@@ -50,7 +51,7 @@ class MovingLoad:
     regions: Bools | None
 
     def acting(self, model: Model, end: Instant) -> tuple[MaterialPoints, Floats] | None:
-        """Return the points it acts on and its forces (m, 2) there (N); None off the way."""
+        """Return its points and the forces (m, 2) on them (N); None off its way."""
         length = float(np.hypot(*(self.segment[1] - self.segment[0])))
         front = self.speed * (end.time - self.start)
         force = self.factor(end) * self.force
@@ -70,13 +71,13 @@ class MovingLoad:
         return place.points, place.weight[:, None] / self.spread * force
 
     def _at(self, shares: list[float]) -> Floats:
-        """Points (k, 2) at shares of the way."""
+        """Points (k, 2) at shares (k,) of the segment."""
         first, last = self.segment
         return np.asarray(first + np.array(shares)[:, None] * (last - first))
 
 
 class MovingLoads(Effect):
-    """All travelling forces of a scene; each point feels them as they come past."""
+    """All travelling forces of a scene."""
 
     name = "moving loads"
 
@@ -96,14 +97,14 @@ class MovingLoads(Effect):
         return False
 
     def force(self, state: State, end: Instant) -> Floats:
-        """Return the forces at the end of the step, in the bodies' axes."""
+        """Return the load vector (n,) at the end of the step, in the axes of the bodies."""
         total = np.zeros(len(state.deformation))
         for points, forces in self._acting(end):
             total += points.push(state, forces)
         return total
 
     def work(self, before: State, after: State) -> float:
-        """Half of the forces of each end times the motion of the points that feel them then."""
+        """Work (J) of half of the forces at each end, on the points where they act then."""
         total = 0.0
         for one in (before, after):
             for points, forces in self._acting(Instant.of(one)):
@@ -115,7 +116,7 @@ class MovingLoads(Effect):
         self._known = []
 
     def _acting(self, end: Instant) -> list[tuple[MaterialPoints, Floats]]:
-        """Where the loads act; those at both ends of a step are kept."""
+        """Points and forces of all loads; those at both ends of a step are cached."""
         for known, found in self._known:
             if known == end:
                 return found
@@ -131,7 +132,7 @@ def _load(setup: Setup, load: "LoadTable") -> MovingLoad:
     assert load.speed is not None
     segment, force = np.array(load.segment), np.array(load.force)
     factor, regions = load_factor(setup, load), setup.regions(load.block)
-    # One point a piece: its middle, which stands for its length.
+    # One point an edge, with the length of the edge as its weight.
     pieces = on_segment(setup.model.manifold, segment, regions, 1)
     way = segment[1] - segment[0]
     middle = (pieces.position - segment[0]) @ way / np.hypot(*way)

@@ -1,4 +1,4 @@
-"""Pressure on a surface: it turns with it, and grows where it stretches."""
+"""The effect: follower pressure on surfaces, which turns and stretches with them."""
 
 from typing import TYPE_CHECKING, Self
 
@@ -20,16 +20,17 @@ if TYPE_CHECKING:
 class SurfacePressures(Effect):
     """All pressures of a scene.
 
-    A closed surface under an even pressure is in balance however it turns and bends. Where axes
-    turn with bodies what is left of a turn in a step waits for the next solution; under finite
-    strain all of it is in the deformation, and steps are solved for it. In small displacements
-    surfaces stay as they were laid.
+    A uniform pressure on a closed surface is self-equilibrated in any deformation. Where axes turn
+    with bodies, the load stiffness is that of the start of the step; in finite strain the step is
+    solved for the force. In small displacements surfaces keep their reference configuration.
     """
 
     name = "pressures"
 
-    def __init__(self, pressures: list[SurfacePressure], model: Model, bends: bool = False) -> None:
-        self.pressures, self._model, self._bends = pressures, model, bends
+    def __init__(
+        self, pressures: list[SurfacePressure], model: Model, finite: bool = False
+    ) -> None:
+        self.pressures, self._model, self._finite = pressures, model, finite
         self._n = model.manifold.n_unknowns
         self._pressed = PressedSurfaces(tuple(pressures), self._n)
         self._parts = [csr_array((whole + whole.T) / 2) for whole in self._pressed.stiffness]
@@ -49,11 +50,11 @@ class SurfacePressures(Effect):
     @property
     def nonlinear(self) -> bool:
         """See `Effect.nonlinear`."""
-        return self._bends
+        return self._finite
 
     @property
     def symmetric(self) -> bool:
-        """See `Effect.symmetric`: ends of open surfaces turn and store nothing."""
+        """See `Effect.symmetric`: false for open surfaces, whose ends give unsymmetric terms."""
         return not any(one.follows for one in self.pressures)
 
     def step_force(self, before: State, after: State, span: Span) -> StepForce:
@@ -61,7 +62,7 @@ class SurfacePressures(Effect):
         return self._pressed.step_force(before, after, span)
 
     def applied_forces(self, state: State) -> AppliedForces:
-        """See `Effect.applied_forces`: those on faces of cracks."""
+        """See `Effect.applied_forces`: those on crack faces."""
         now = Instant.of(state)
         parts = ((one.place, one.forces(state, now)) for one in self.pressures)
         return joined(AppliedForces.on(self._model, place, force) for place, force in parts)
@@ -71,7 +72,7 @@ class SurfacePressures(Effect):
         return self._pressed.force(state, end)
 
     def matrix(self, state: State) -> csc_array:
-        """Return how the forces fall with the motion; the same object while the factors stay."""
+        """Return the symmetric load stiffness (n, n); the same object for the same factors."""
         now = Instant.of(state)
         factors = tuple(one.factor(now) if one.follows else 0.0 for one in self.pressures)
         if self._kept is None or self._kept[0] != factors:
@@ -85,7 +86,7 @@ class SurfacePressures(Effect):
         self._kept = None
 
     def work(self, before: State, after: State) -> float:
-        """Mean of the forces at both ends times the way: exact, as they are linear in the place."""
+        """Work (J) of the mean of both ends: exact for forces that are linear in the places."""
         total = 0.0
         for one in self.pressures:
             first, last = (one.forces(state, Instant.of(state)) for state in (before, after))
@@ -95,7 +96,7 @@ class SurfacePressures(Effect):
 
 def _pressure(setup: Setup, load: "LoadTable") -> SurfacePressure:
     assert load.pressure is not None
-    # As many points on a piece as functions along it.
+    # As many points on a part as the displacement has functions along it.
     order = 2 * max(setup.model.manifold.degree, 1) + 1
     place = edge_place(setup, "loads", load, order)
     size, factor = load.pressure * setup.model.thickness, load_factor(setup, load)

@@ -1,4 +1,4 @@
-"""Pressure on pieces of boundary that turn and stretch: forces, how they fall with the motion."""
+"""Follower pressure on parts of the boundary: its forces, and the load stiffness."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,33 +12,32 @@ from nmm.assembly.motion import State
 from nmm.assembly.places import Place
 from nmm.effects.base import Instant, Span, StepForce
 
-# A vector turned clockwise: the way along a surface gives the way out of it.
+# Clockwise rotation: from the tangent of a surface to its outward normal.
 CLOCKWISE = np.array([[0.0, 1.0], [-1.0, 0.0]])
 
 
 @dataclass(frozen=True)
 class SurfacePressure:
-    """Pressure on q points of each of k pieces of boundary, k q = m of them.
+    """Pressure on k parts of the boundary with q points each, m = k q.
 
     Attributes
     ----------
     name
-        As the scene calls it.
+        Name in the scene.
     place
         The points.
     slopes
-        (k, q, q) from places of the points of a piece to the way along the surface that each of
-        them stands for, the material to its left; exact where places are polynomials of degree
-        q - 1 along the piece.
+        (k, q, q) from the places of the points of a part to the weighted tangent at each, with the
+        material on its left; exact where places are polynomials of degree q - 1 along the part.
     size
         Pressure times thickness (N/m).
     factor
-        From the instant to the factor.
+        Load factor as a function of the instant.
     steady
-        Whether it has no history.
+        Whether it is constant in time.
     follows
-        Whether the surface is where it has come to; else it stays as it was laid, as in the theory
-        of small displacements.
+        Whether the forces follow the deformed surface; else the reference one, as in the theory of
+        small displacements.
     """
 
     name: str
@@ -50,7 +49,7 @@ class SurfacePressure:
     follows: bool = True
 
     def forces(self, state: State, end: Instant) -> Floats:
-        """Forces (m, 2) on the points where they are (N)."""
+        """Forces (m, 2) on the points at their present places, in global axes (N)."""
         places = self.place.position
         if self.follows:
             places = self.place.points.place(state.frames, state.deformation)
@@ -59,9 +58,9 @@ class SurfacePressure:
         return np.asarray(-self.factor(end) * self.size * along @ CLOCKWISE.T)
 
     def stiffness(self, n: int) -> csr_array:
-        """Matrix (n, n) by which the force falls with the motion, at factor 1.
+        """Load stiffness (n, n) at factor 1: minus the derivative of the force by the unknowns.
 
-        What is not symmetric of it is of the ends of an open surface alone.
+        It is symmetric but for terms of the ends of an open surface.
         """
         rows = self.place.points.rows.matrix(n)
         k, q, _ = self.slopes.shape
@@ -75,20 +74,20 @@ class SurfacePressure:
 
 @dataclass(frozen=True)
 class PressedSurfaces:
-    """Several of them on a model of ``n`` unknowns."""
+    """Pressures on a model of ``n`` unknowns."""
 
     surfaces: tuple[SurfacePressure, ...]
     n: int
 
     def force(self, state: State, end: Instant) -> Floats:
-        """See `Effect.force`: the pressures on the surfaces as they are, in the bodies' axes."""
+        """See `Effect.force`: the pressures on the present surfaces, in the axes of the bodies."""
         total = np.zeros(self.n)
         for one in self.surfaces:  # a handful
             total += one.place.points.push(state, one.forces(state, end))
         return total
 
     def step_force(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.step_force`: the forces at both ends, which are lines in the places."""
+        """See `Effect.step_force`: the weighted forces at both ends."""
         end = Instant.of(after)
         force = span.weight * self.force(after, end)
         if span.weight < 1:
@@ -103,29 +102,29 @@ class PressedSurfaces:
 
     @cached_property
     def stiffness(self) -> list[csr_array]:
-        """Matrices (n, n) of each at factor 1."""
+        """Load stiffness (n, n) of each at factor 1."""
         return [one.stiffness(self.n) for one in self.surfaces]
 
 
 def along_surface(place: Place) -> Floats:
-    """Weights (k, q, q) of the points' places in the way that each stands for: `slopes`."""
+    """Return `SurfacePressure.slopes` (k, q, q) at the Gauss points of a place."""
     assert place.piece is not None
     assert place.normal is not None
     k = int(place.piece[-1]) + 1
     q = len(place) // k
-    # Shares of the piece at which Gauss points lie; the sum of weights is its length.
+    # On the interval (-1, 1), whose weights sum to 2.
     nodes, weights = np.polynomial.legendre.leggauss(q)
     slopes = weights[:, None] * _derivatives(nodes)
     ends = place.position.reshape(k, q, 2)
     normal = place.normal.reshape(k, q, 2)[:, 0]
     way = np.einsum("ij,kjc->kic", slopes, ends).sum(axis=1)
-    # Along the surface with the material to the left the outward normal is turned clockwise.
+    # With the material on the left, the outward normal is the tangent turned clockwise.
     sense = np.sign(np.sum(way @ CLOCKWISE.T * normal, axis=1))
     return np.asarray(sense[:, None, None] * slopes)
 
 
 def _derivatives(nodes: Floats) -> Floats:
-    """Matrix (q, q) from values at nodes to the derivatives of the polynomial through them."""
+    """Differentiation matrix (q, q) of the polynomial through values at nodes (q,)."""
     powers = np.vander(nodes, increasing=True)
     slopes = np.zeros_like(powers)
     slopes[:, 1:] = powers[:, :-1] * np.arange(1, len(nodes))

@@ -1,4 +1,4 @@
-"""Bars: rock bolts, cables, anchors and reinforcement, with a bond along them or held at ends."""
+"""The effect: bars (rock bolts, cables, anchors, reinforcement), bonded or anchored at ends."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Self
@@ -21,20 +21,20 @@ from nmm.scene.tables.members import GROUND
 if TYPE_CHECKING:
     from nmm.scene.tables.members import BarTable
 
-# Plastic strain at which hardening ends: none gets there.
+# Plastic strain at which hardening ends, beyond all that occur.
 FAR = 1e3
 
 
 @dataclass(frozen=True)
-class _Laid:
-    """A bar as nodes in a row: ``elements`` (k,) they lie in, -1 the ground, and ``position``.
+class _BarNodes:
+    """A bar as a row of nodes at ``position`` (k, 2) in ``elements`` (k,), -1 for the ground.
 
     Attributes
     ----------
     place
-        (k,) number of each among all that the bar could have: its memory.
+        (k,) number of each among all nodes that the bar could have: its place of memory.
     share
-        (k,) length of bar whose bond acts at each (m); 0 where the bar cannot slip.
+        (k,) length of bar whose bond acts at each (m); 0 where it cannot slip.
     """
 
     elements: Ints
@@ -46,9 +46,9 @@ class _Laid:
 class BarMembers(Linked):
     """All ``[[bars]]`` of a scene.
 
-    A bar with bond is divided into pieces, whose middles move with what they lie in but for a slip
-    along the bar; where nothing is there is no bond, and the bar goes on to where there is. A
-    middle on a joint is on the block before it, as seen from the bar's first point.
+    A bonded bar is divided into pieces, whose midpoints move with the block that they lie in, but
+    for a slip along the bar. Between blocks there is no bond. A midpoint on a joint belongs to the
+    block on the side of the bar's first point.
     """
 
     name = "bars"
@@ -57,11 +57,11 @@ class BarMembers(Linked):
     def from_setup(cls, setup: Setup) -> Self:
         """Build from the ``[[bars]]``."""
         bars = setup.scene.bars
-        laid = [_laid(setup, one) for one in bars]
-        nodes = np.array([len(one.place) for one in laid])
+        nodes_of = [_nodes(setup, one) for one in bars]
+        nodes = np.array([len(one.place) for one in nodes_of])
         first = np.delete(np.arange(nodes.sum()), np.cumsum(nodes) - 1)  # of each link
         position, elements, share = (
-            np.concatenate([getattr(one, name) for one in laid])
+            np.concatenate([getattr(one, name) for one in nodes_of])
             for name in ("position", "elements", "share")
         )
         ends = [MemberEnds.at(setup, position[at], elements[at]) for at in (first, first + 1)]
@@ -78,7 +78,7 @@ class BarMembers(Linked):
         )
         places = np.array([setup.formulation.bars.pieces + 2] * len(bars))
         begin = np.concatenate([[0], np.cumsum(places)[:-1]])
-        place = np.concatenate([one.place for one in laid]) + begin[of_node]
+        place = np.concatenate([one.place for one in nodes_of]) + begin[of_node]
         members = Members(
             tuple(one.name for one in bars),
             tuple(places.tolist()),
@@ -97,13 +97,13 @@ class BarMembers(Linked):
         return f"{len(chains.axial)} links, {len(chains.bond)} points of bond"
 
 
-def _laid(setup: Setup, bar: "BarTable") -> _Laid:
-    """Lay a bar: its ends where they are held, and the middles of its pieces where they bond.
+def _nodes(setup: Setup, bar: "BarTable") -> _BarNodes:
+    """Return the nodes of a bar: its anchored ends, and the bonded midpoints of its pieces.
 
     Raises
     ------
     SceneError
-        When an end is held at a block that is not there, or a bond is nowhere in a block.
+        An end is anchored where its block is not, or the bond lies in no block.
     """
     first, last = np.array(bar.points)
     pieces = setup.formulation.bars.pieces
@@ -126,11 +126,11 @@ def _laid(setup: Setup, bar: "BarTable") -> _Laid:
     place = np.flatnonzero(inside)
     length = float(np.hypot(*(last - first))) / pieces
     bonded = (place > 0) & (place <= pieces)
-    return _Laid(elements[place], position[place], place, np.where(bonded, length, 0.0))
+    return _BarNodes(elements[place], position[place], place, np.where(bonded, length, 0.0))
 
 
 def _axial(bars: "tuple[BarTable, ...]", owner: Ints, length: Floats) -> Fibres:
-    """Axial laws of links (m,) of bars, in stress and strain."""
+    """Axial laws of links (m,) of bars, in terms of stress and strain."""
     area = np.array([bar.section * bar.number for bar in bars])
     start = np.array([bar.pretension / bar.section for bar in bars])
     laws = [_steel(bar) for bar in bars]
@@ -138,7 +138,7 @@ def _axial(bars: "tuple[BarTable, ...]", owner: Ints, length: Floats) -> Fibres:
 
 
 def _bond(setup: Setup, owner: Ints, share: Floats) -> Fibres:
-    """Laws of the bond at points (p,) that stand for lengths ``share`` of bars (m)."""
+    """Laws of the bond at points (p,), each of the length ``share`` of its bar (m)."""
     bars = setup.scene.bars
     around = np.array([_perimeter(bar) * bar.number for bar in bars])
     laws = [None if bar.bond is None else _bond_law(setup, bar).uniaxial for bar in bars]
@@ -147,12 +147,12 @@ def _bond(setup: Setup, owner: Ints, share: Floats) -> Fibres:
 
 
 def _bond_law(setup: Setup, bar: "BarTable") -> BondLaw:
-    """Return the law of a bar's bond.
+    """Return the bond-slip law of a bar.
 
     Raises
     ------
     SceneError
-        When its name is not known, or constants do not fit it; with the line of the bar.
+        Its name is unknown, or its constants do not fit; with the line of the bar.
     """
     table = bar.bond
     assert table is not None

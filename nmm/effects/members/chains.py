@@ -1,9 +1,10 @@
-"""Chains of links whose inner points slip along what they lie in: bars with bond.
+"""Chains of links with slip at their inner points: bonded bars.
 
-A bar stretches as its surroundings do between its points, and by the difference of its slips there.
-Slips follow from the balance of the bar, whose axial force changes from link to link by the bond's.
-They are found by Newton's method on one tridiagonal system a bar, and condensed: what is around
-knows the axial forces and their tangent alone. Links without slips, springs, are chains of one.
+The elongation of a link is that of the ground between its points, plus the difference of its slips
+there. Slips follow from the equilibrium of the bar, whose axial force changes from link to link by
+the bond force. They are found by Newton's method on one tridiagonal system for each bar, and
+statically condensed, so that the step sees axial forces and their tangent alone. Links without
+slip, as springs, are chains of one link.
 """
 
 from dataclasses import dataclass
@@ -18,30 +19,31 @@ from scipy.sparse.csgraph import connected_components
 from integration.arrays import Floats, Ints
 from nmm.effects.members.fibres import FibreAnswer, Fibres
 
-# Out-of-balance force of a bar, as a share of its forces, at which slips are found; and iterations.
+# Residual of a bar, over its forces, at which slips have converged, and the largest number of
+# iterations.
 BALANCED, MOST = 1e-13, 60
-# What falls no more for rounding is taken up to this share.
+# A residual that falls no further for rounding is accepted up to this share.
 ROUNDED = 1e-9
 ROUNDING = 10 * float(np.finfo(float).eps)
-# A step of slips is halved while it leaves more out of balance than there was, down to this share.
+# Shortest step of the line search on slips.
 SHORTEST = 0.5**7
-# Share of its elastic stiffness that a bond never lacks while slips are sought: a bar whose bond is
-# gone stays where it is.
+# Share of its elastic stiffness that a bond always keeps in the iteration, so that a bar without
+# bond stays where it is.
 LEFT = 1e-10
 
 
 @dataclass(frozen=True)
 class ChainAnswer:
-    """What chains answer to stretches.
+    """The response of chains to elongations.
 
     Attributes
     ----------
     axial, bond
-        Of m links and of p slips.
+        Forces of m links and of the bond at p slips.
     slip
-        (p,) m.
+        (p,) slips (m).
     broken
-        Slips of bars that are in no stable balance, a number each; empty where all are.
+        Numbers of the slips of bars without stable equilibrium; empty where there are none.
     """
 
     axial: FibreAnswer
@@ -52,16 +54,16 @@ class ChainAnswer:
 
 @dataclass(frozen=True)
 class Chains:
-    """Links in chains; slips of a chain follow one another.
+    """Links in chains; the slips of a chain are consecutive.
 
     Attributes
     ----------
     axial
-        Of m links.
+        Laws of m links.
     bond
-        Of p slips.
+        Laws of the bond at p slips.
     left, right
-        (m,) the slip at either end of a link; -1 where it is fixed.
+        (m,) number of the slip at either end of a link; -1 for a fixed end.
     """
 
     axial: Fibres
@@ -71,14 +73,14 @@ class Chains:
 
     @classmethod
     def without_slip(cls, axial: Fibres) -> Self:
-        """Return links each of which is a chain of its own."""
+        """Return links that are a chain each."""
         none = Fibres.of([], np.zeros(0), np.zeros(0))
         fixed = np.full(len(axial), -1)
         return cls(axial, none, fixed, fixed)
 
     @cached_property
     def opening(self) -> csr_array:
-        """(m, p) from slips to what they lengthen links by."""
+        """(m, p) from slips to the elongations of links."""
         rows, columns, values = [], [], []
         for end, sign in ((self.right, 1.0), (self.left, -1.0)):
             at = np.flatnonzero(end >= 0)
@@ -90,16 +92,16 @@ class Chains:
 
     @property
     def elastic(self) -> bool:
-        """Whether nothing has a yield value: ways leave nothing to remember."""
+        """Whether nothing yields, so that there is no memory."""
         return bool(self.axial.elastic.all() and self.bond.elastic.all())
 
     @cached_property
     def linear(self) -> bool:
-        """Whether axial forces are lines in the stretches."""
+        """Whether axial forces are linear in the elongations."""
         return self.axial.linear and self.bond.linear
 
     def answer(self, stretch: Floats, slip: Floats, memory: tuple[Floats, Floats]) -> ChainAnswer:
-        """Return the answer to stretches (m,); slips (p,) are sought from those given.
+        """Return the response to elongations (m,) (m), by iteration from slips (p,) (m).
 
         ``memory`` is that of links (m, 2) and of bonds (p, 2) at the start of the step.
         """
@@ -107,7 +109,7 @@ class Chains:
         if not len(slip):
             return now
         size = before = np.inf
-        out, scale = self._out(now)
+        out, scale = self._residual(now)
         for _ in range(MOST):
             size = float(np.abs(out).max()) / scale if scale else 0.0
             if size <= BALANCED or (size <= ROUNDED and size > before / 2):
@@ -119,12 +121,12 @@ class Chains:
         return ChainAnswer(now.axial, now.bond, now.slip, lost)
 
     def tangent(self, found: ChainAnswer) -> csr_array:
-        """Matrix (m, m) of the axial forces over the stretches, slips condensed (N/m)."""
+        """Tangent (m, m) of axial forces by elongations, with slips condensed (N/m)."""
         own = found.axial.tangent
         if not len(found.slip):
             return csr_array(diags_array(own))
         band, values = self._band(found), []
-        for links, slips, opening in self._bars:  # each bar has its own small system
+        for links, slips, opening in self._bars:  # each bar has a small system of its own
             block = np.diag(own[links])
             if len(slips):
                 stiff = own[links, None] * opening
@@ -136,7 +138,7 @@ class Chains:
 
     @cached_property
     def _places(self) -> tuple[Ints, Ints]:
-        """Rows and columns of the blocks of all chains."""
+        """Rows and columns of the tangents of all chains."""
         pairs = [np.meshgrid(links, links, indexing="ij") for links, *_ in self._bars]
         row, column = (np.concatenate([pair[i].ravel() for pair in pairs]) for i in (0, 1))
         return row, column
@@ -145,20 +147,20 @@ class Chains:
         axial = self.axial.answer(stretch + self._opened(slip), memory[0])
         return ChainAnswer(axial, self.bond.answer(slip, memory[1]), slip, NONE)
 
-    def _out(self, at: ChainAnswer) -> tuple[Floats, float]:
-        """Out-of-balance forces (p,) and the size of forces, or of their rounding (N)."""
+    def _residual(self, at: ChainAnswer) -> tuple[Floats, float]:
+        """Residual forces (p,), and the magnitude of forces or of their rounding (N)."""
         out = at.bond.force + self._pulled(at.axial.force)
         rounded = self._stiffest * float(np.abs(at.slip).max(initial=0.0)) * ROUNDING / BALANCED
         forces = (at.axial.force, at.bond.force)
         return out, max(rounded, *(float(np.abs(one).max(initial=0.0)) for one in forces))
 
     def _opened(self, slip: Floats) -> Floats:
-        """How much slips (p,) lengthen links (m,)."""
-        ends = np.append(slip, 0.0)  # the last, -1, is fixed
+        """Elongations (m,) of links by slips (p,)."""
+        ends = np.append(slip, 0.0)  # -1 is a fixed end
         return np.asarray(ends[self.right] - ends[self.left])
 
     def _pulled(self, force: Floats) -> Floats:
-        """How links of forces (m,) pull at slips (p,)."""
+        """Forces (p,) at slips of axial forces (m,)."""
         slips = len(self.bond)
         pulled = np.bincount(self.right % (slips + 1), force, slips + 1)
         return np.asarray(pulled - np.bincount(self.left % (slips + 1), force, slips + 1))[:-1]
@@ -170,7 +172,7 @@ class Chains:
     def _nearer(
         self, now: ChainAnswer, out: Floats, stretch: Floats, memory: tuple[Floats, Floats]
     ) -> tuple[ChainAnswer, tuple[Floats, float]]:
-        """Return the next iterate, Newton's, or less where more would be out of balance; its so."""
+        """Return the next iterate of Newton's method with line search, and its residual."""
         factors, unstable = self._factors(now)
         if len(unstable):
             factors = cholesky_banded(self._elastic)
@@ -178,15 +180,15 @@ class Chains:
         was, part = float(np.linalg.norm(out)), 1.0
         while True:
             found = self._at(stretch, now.slip + part * way, memory)
-            left = self._out(found)
+            left = self._residual(found)
             if np.linalg.norm(left[0]) < was or part <= SHORTEST:
                 return found, left
             part /= 2
 
     def _factors(self, at: ChainAnswer) -> tuple[Floats, Ints]:
-        """Factor of the tridiagonal matrix, and the slips before which it is not positive."""
+        """Factor of the tridiagonal matrix, and the slips of bars in which it is indefinite."""
         if self.linear:
-            return self._of_lines, NONE
+            return self._linear_factor, NONE
         band = self._band(at)
         try:
             return cholesky_banded(band), NONE
@@ -194,8 +196,8 @@ class Chains:
             return band, np.concatenate([s for _, s, _ in self._bars if not _positive(band[:, s])])
 
     @cached_property
-    def _of_lines(self) -> Floats:
-        """Factor of the tridiagonal matrix of linear laws, whatever they answer."""
+    def _linear_factor(self) -> Floats:
+        """Factor of the tridiagonal matrix of linear laws."""
         bond = (1 + LEFT) * self.bond.stiffness
         return np.asarray(cholesky_banded(self._matrix(self.axial.stiffness, bond)))
 
@@ -207,7 +209,7 @@ class Chains:
         return self._matrix(self.axial.stiffness, self.bond.stiffness)
 
     def _matrix(self, axial: Floats, bond: Floats) -> Floats:
-        """Upper band (2, p) of the stiffness of slips."""
+        """Stiffness of slips in upper banded form (2, p)."""
         band = np.zeros((2, len(bond)))
         band[1] = bond
         for end in (self.left, self.right):
@@ -219,7 +221,7 @@ class Chains:
 
     @cached_property
     def _bars(self) -> list[tuple[Ints, Ints, Floats]]:
-        """Links and slips of each chain, and how one opens the other; a cut chain is several."""
+        """Links, slips and `opening` of each connected chain."""
         joined = csr_array(abs(self.opening.T) @ abs(self.opening))
         count, label = connected_components(joined, directed=False)
         end = np.maximum(self.left, self.right)

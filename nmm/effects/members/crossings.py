@@ -1,4 +1,4 @@
-"""Where straight bars pass from one body into another."""
+"""Crossings of straight bars from one body into another."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,20 +10,20 @@ import shapely
 from covers.approximation.manifold import Manifold
 from integration.arrays import Floats, Ints
 
-# Of a bar's length: what rounding leaves between two bodies that touch.
+# Rounding of the gap between two bodies in contact, over the length of the bar.
 TOUCHING = 1e-9
 
 
 @dataclass(frozen=True)
 class JointsCrossed:
-    """Places of bars between two bodies.
+    """Places at which bars pass from one body into another.
 
     Attributes
     ----------
     share
-        (k,) of a bar's length, rising along each.
+        (k,) place along the bar as a share of its length, increasing along each bar.
     before, after
-        (k,) elements that the bar leaves and enters there.
+        (k,) elements that the bar leaves and enters.
     """
 
     share: Floats
@@ -32,7 +32,7 @@ class JointsCrossed:
 
     @classmethod
     def of(cls, manifold: Manifold, first: Floats, last: Floats, gap: float) -> Self:
-        """Return those of a bar from ``first`` to ``last`` (2,), over gaps of up to ``gap`` (m)."""
+        """Return the crossings of a bar between two points (2,), over gaps up to ``gap`` (m)."""
         length = float(np.hypot(*(last - first)))
         begin, end, element = _stretches(manifold, first, last)
         body = manifold.element_body[element]
@@ -43,7 +43,7 @@ class JointsCrossed:
 
     @classmethod
     def joined(cls, parts: "Sequence[JointsCrossed]") -> Self:
-        """Return those of all bars, one after the other."""
+        """Return the crossings of several bars, one after the other."""
         share, before, after = (
             np.concatenate([getattr(one, name) for one in parts])
             for name in ("share", "before", "after")
@@ -52,7 +52,7 @@ class JointsCrossed:
 
 
 def _stretches(manifold: Manifold, first: Floats, last: Floats) -> tuple[Floats, Floats, Ints]:
-    """Begin and end (k,) of the bar in each element, as shares of its length; and the elements."""
+    """Begin and end (k,) of the bar in each element, as shares of its length, and the elements."""
     line = shapely.LineString([first, last])
     outlines = manifold.elements.to_shapely()
     near = shapely.STRtree(outlines).query(line, predicate="intersects")

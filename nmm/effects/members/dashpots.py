@@ -1,4 +1,4 @@
-"""Dashpots between points of blocks, or a point and the ground."""
+"""The effect: dashpots between points of blocks, or a point and the ground."""
 
 from typing import Self
 
@@ -18,9 +18,9 @@ NOTHING = np.zeros(1)
 
 
 class PointDashpots(Effect):
-    """All ``[[dashpots]]`` of a scene: ``N = c`` times the elongation of the step over its length.
+    """All ``[[dashpots]]`` of a scene: axial forces ``c`` times the elongation rate of the step.
 
-    That is the force at the middle of the step. In statics there is none.
+    Zero in statics.
     """
 
     name = "dashpots"
@@ -50,7 +50,7 @@ class PointDashpots(Effect):
         force = self._mean(before, after)
         lines = self.links.mean_lines(before, after)
         pull = self.links.pull(before, lines, force)
-        pull += self.links.owed(self._model, before, after, lines, force)
+        pull += self.links.moment_correction(self._model, before, after, lines, force)
         tangent = self.viscosity / span.step
 
         def made() -> csc_array:
@@ -73,7 +73,7 @@ class PointDashpots(Effect):
         self._kept.forget()
 
     def history(self, state: State) -> dict[str, float]:
-        """Return the force (N) of each in the last step."""
+        """Return the force of each in the last step (N)."""
         pairs = zip(self.names, self._last(state), strict=True)
         return {f"{name}:force": float(force) for name, force in pairs}
 
@@ -83,7 +83,7 @@ class PointDashpots(Effect):
         return MemberSegments(self.links.place(state), owner, self.names, self._last(state), slip)
 
     def _last(self, state: State) -> Floats:
-        """Force (m,) in the step that ended at a state (N)."""
+        """Force (m,) of the step that ended at a state (N)."""
         return np.array([float(state.memory.get(name, NOTHING)[0]) for name in self.names])
 
     def _remembered(self, force: Floats) -> dict[str, Floats]:
@@ -93,7 +93,7 @@ class PointDashpots(Effect):
         return self._stretch.of(after) - self._stretch.of(before)
 
     def _mean(self, before: State, after: State) -> Floats:
-        """Force (m,) in a step (N); none without time."""
+        """Force (m,) of a step (N); zero if it has no duration."""
         step = after.time - before.time
         rate = self._elongation(before, after) / step if step > 0 else np.zeros(len(self.links))
         return np.asarray(self.viscosity * rate)

@@ -1,8 +1,8 @@
-"""Dowels: bars that resist a joint that slides across them.
+"""The effect: dowel action of bars across joints that slide.
 
-On both sides of a joint the bar is a long beam on the ground that it is bedded in, of a stiffness
-``k`` to its length. A way ``w`` across bends it against both, with the shear force and the largest
-moment, at ``pi / (4 l)`` from the joint,
+On both sides of a joint the bar is a long beam on an elastic foundation of stiffness ``k`` for each
+length. A sliding ``w`` of the joint gives the shear force, and the largest moment at
+``pi / (4 l)`` from the joint,
 
     V = k w / (4 l),    M = e^(-pi/4) sin(pi/4) V / l,    l = (k / (4 E I))^(1/4)
 
@@ -28,15 +28,15 @@ from nmm.materials.uniaxial import Uniaxial
 if TYPE_CHECKING:
     from nmm.scene.tables.members import BarTable
 
-# Places of memory of a bar: joints that it crosses, at most one to each of these parts of it.
+# Places of memory of a bar: at most one joint in each of so many parts of it.
 PLACES = 200
 
 
 class Dowels(Linked):
     """The bars of a scene that have a ``[bars.dowel]``, at the joints that they cross.
 
-    A dowel is a link of the length ``1 / l`` along which the bodies slide: what a joint opens
-    turns it by little.
+    A dowel is a link of length ``1 / l`` across the bar, so long that an opening of the joint turns
+    it by little.
     """
 
     name = "dowels"
@@ -77,7 +77,7 @@ class Dowels(Linked):
         return f"{len(self.members.owner)} joints crossed"
 
     def history(self, state: State) -> dict[str, float]:
-        """Return the largest shear force of each bar (N), and the moment that it bends by (N m)."""
+        """Return the largest shear force (N) and bending moment (N m) of each bar."""
         found = super().history(state)
         lever = np.exp(-np.pi / 4) * np.sin(np.pi / 4) / self._decay
         forces = [found[f"{name}:force"] for name in self.members.names]
@@ -90,7 +90,7 @@ class Dowels(Linked):
 
 
 def _links(setup: Setup, crossed: JointsCrossed, ends: Floats, length: Floats) -> Links:
-    """Return links of lengths (m,) across bars between ``ends`` (m, 2, 2), at joints crossed."""
+    """Return links of lengths (m,) across bars with ``ends`` (m, 2, 2), at their crossings."""
     first, along = ends[:, 0], ends[:, 1] - ends[:, 0]
     middle = first + crossed.share[:, None] * along
     across = np.stack([-along[:, 1], along[:, 0]], axis=1) / np.hypot(*along.T)[:, None]
@@ -101,7 +101,7 @@ def _links(setup: Setup, crossed: JointsCrossed, ends: Floats, length: Floats) -
 
 
 def _decay(bar: "BarTable") -> float:
-    """Return ``l`` (1/m)."""
+    """Return ``l`` of a bar (1/m)."""
     assert bar.dowel is not None
     return float((bar.dowel.bedding_stiffness / (4 * bar.bending_stiffness)) ** 0.25)
 
@@ -114,8 +114,9 @@ def _law(bar: "BarTable", decay: float) -> Uniaxial:
 
 
 def _places(owner: Ints, share: Floats) -> Ints:
-    """Return the place (m,) of memory of each crossing, by where it is on its bar."""
+    """Return the place of memory (m,) of each crossing, by its place on the bar."""
     place = owner * PLACES + np.minimum((share * PLACES).astype(np.int64), PLACES - 1)
-    # Of two in one part the later one has the next; crossings rise along each bar.
+    # Of two crossings in one part the later takes the next place; crossings increase along each
+    # bar.
     rise = np.arange(len(place))
     return np.asarray(np.maximum.accumulate(place - rise) + rise)

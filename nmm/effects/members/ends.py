@@ -1,4 +1,4 @@
-"""Ends of what connects points: on bodies, with which they move, or on the ground."""
+"""Ends of members: material points of bodies, or fixed points of the ground."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -20,24 +20,24 @@ from nmm.scene.tables.members import GROUND
 if TYPE_CHECKING:
     from nmm.scene.tables.members import TwoEndedTable
 
-# Of the reach: so far before an edge only one side of it is in reach, unless aslant by less.
+# Distance before an edge, in reaches, at which only the block on that side is within reach.
 BEFORE = 10.0
 
 
 @dataclass(frozen=True)
 class MemberEnds:
-    """Points on bodies, or on the ground.
+    """Points on bodies or on the ground.
 
     Attributes
     ----------
     points
-        m points that move with the material; of those on the ground nothing is used.
+        m material points; those for ends on the ground are not used.
     held
         (m,) 1 on a body, 0 on the ground.
     position
-        (m, 2) where they are drawn.
+        (m, 2) reference places (m).
     element
-        (m,) that they lie in; -1 on the ground.
+        (m,) element of each; -1 on the ground.
     """
 
     points: MaterialPoints
@@ -47,9 +47,9 @@ class MemberEnds:
 
     @classmethod
     def at(cls, setup: Setup, position: Floats, elements: Ints) -> Self:
-        """Return ends at positions (m, 2) in elements (m,); -1 is the ground."""
+        """Return ends at positions (m, 2) (m) in elements (m,); -1 is the ground."""
         held, manifold = elements >= 0, setup.model.manifold
-        # Covers need not reach the ground: what stands for its points is a point of a body.
+        # Covers need not contain points of the ground: a point of a body takes their place.
         reached = np.where(held[:, None], position, manifold.elements.points[0])
         points = material_points(manifold, np.maximum(elements, 0), reached)
         return cls(points, held.astype(float), position, elements)
@@ -58,7 +58,7 @@ class MemberEnds:
         return len(self.held)
 
     def way(self, state: State) -> Floats:
-        """Return how far they have come from where they are drawn (m, 2)."""
+        """Return the displacements (m, 2) (m)."""
         return self._ways.of(state)
 
     @cached_property
@@ -69,16 +69,16 @@ class MemberEnds:
         return self.held[:, None] * self.points.moved(state.frames, state.deformation)
 
     def pushed(self, force: Floats) -> AppliedForces:
-        """Return forces (m, 2) on those that are on bodies (N)."""
+        """Return the forces (m, 2) (N) of the ends on bodies."""
         kept = self.element >= 0
         return AppliedForces.at(self.element[kept], self.position[kept], force[kept])
 
     def along(self, frames: Frames, directions: Floats) -> Floats:
-        """Rows (m, L) of the motion along global directions (m, 2), in the bodies' axes."""
+        """Rows (m, L) of the motion along global directions (m, 2), in the axes of the bodies."""
         return self.held[:, None] * self.points.along(frames, directions)
 
     def arm(self, before: State, after: State) -> Floats:
-        """Arms (m, 2) half way through a step, less those that rows at its start have (m)."""
+        """Lever arms (m, 2) at the middle of a step, minus those at its start (m)."""
         body, frames = self.points.body, before.frames
         way = (self.way(before) + self.way(after)) / 2
         centre = (frames.centre[body] + after.frames.centre[body]) / 2
@@ -89,12 +89,12 @@ class MemberEnds:
 def ends_of(
     setup: Setup, key: str, members: "Sequence[TwoEndedTable]"
 ) -> tuple[MemberEnds, MemberEnds]:
-    """Return the first and the second ends of members of a table ``[[key]]``.
+    """Return the first and the second ends of the members of ``[[key]]``.
 
     Raises
     ------
     SceneError
-        Those that lie on no material, one line each.
+        Ends that lie on no material, a line each.
     """
     faults, found = [], []
     for side in (0, 1):
@@ -113,7 +113,7 @@ def ends_of(
 def nowhere(
     setup: Setup, key: str, name: str, point: tuple[float, float], block: str | None
 ) -> Fault:
-    """Return the fault of a member of ``[[key]]`` with an end that no block is at."""
+    """Return the fault of a member of ``[[key]]`` with an end at which there is no block."""
     place = setup.scene.source.of_name(key, name)
     x, y = np.array(point) + setup.origin
     there = "no block" if block is None else f'no block "{block}"'
@@ -122,7 +122,7 @@ def nowhere(
 
 
 def _elements(setup: Setup, position: Floats, named: Sequence[str | None]) -> Ints:
-    """Elements (m,) at positions (m, 2), on the blocks that are named; -1 on the ground."""
+    """Elements (m,) at positions (m, 2) on the named blocks; -1 on the ground."""
     found = np.full(len(position), -1)
     for name in dict.fromkeys(named):  # blocks that are named
         if name != GROUND:
@@ -134,7 +134,7 @@ def _elements(setup: Setup, position: Floats, named: Sequence[str | None]) -> In
 def elements_at(setup: Setup, position: Floats, regions: Bools | None = None) -> Ints:
     """Return an element (m,) at each position (m, 2); -1 where there is none.
 
-    ``regions`` (N,) says which input regions count; None is all.
+    ``regions`` (N,) are the input regions to look in; None for all.
     """
     manifold, reach = setup.model.manifold, _reach(setup)
     tree = shapely.STRtree(manifold.elements.to_shapely())
@@ -150,7 +150,7 @@ def elements_at(setup: Setup, position: Floats, regions: Bools | None = None) ->
 def elements_along(setup: Setup, position: Floats, way: Floats) -> Ints:
     """Return an element (m,) at each position (m, 2), as `elements_at` does.
 
-    One on an edge of several blocks is on that before it along ``way`` (2,), whatever their order.
+    On an edge between blocks it is that of the block that ``way`` (2,) leaves.
     """
     back = BEFORE * _reach(setup) * way / np.hypot(*way)
     before = elements_at(setup, position - back)
@@ -158,5 +158,5 @@ def elements_along(setup: Setup, position: Floats, way: Floats) -> Ints:
 
 
 def _reach(setup: Setup) -> float:
-    """Return how far off material counts as on it (m)."""
+    """Return the distance from material within which a point counts as on it (m)."""
     return NEAR * float(np.hypot(*np.ptp(setup.model.manifold.elements.points, axis=0)))

@@ -1,4 +1,4 @@
-"""Points of members that a uniaxial law answers for: axial forces of links, bond of bars."""
+"""Points of members with uniaxial laws: axial forces of links, bond of bars."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from nmm.materials.uniaxial import Uniaxial
 
 @dataclass(frozen=True)
 class FibreAnswer:
-    """Force (m,) in N, tangent (m,) in N/m, plastic way and its length (m, 2) as of the law."""
+    """Force (m,) (N), tangent (m,) (N/m), and plastic strain with its length (m, 2) by the law."""
 
     force: Floats
     tangent: Floats
@@ -22,18 +22,18 @@ class FibreAnswer:
 
 @dataclass(frozen=True)
 class Fibres:
-    """Points with laws.
+    """Points with uniaxial laws.
 
     Attributes
     ----------
     laws, law
-        Laws, and which one (m,) each point has.
+        The laws, and the number (m,) of that of each point.
     length
-        (m,) way in m over that of the law.
+        (m,) elongation (m) over the strain of the law.
     area
-        (m,) force in N over that of the law.
+        (m,) force (N) over the stress of the law.
     start
-        (m,) force of the law where nothing has moved.
+        (m,) stress of the law at zero elongation.
     """
 
     laws: tuple[Uniaxial, ...]
@@ -46,7 +46,7 @@ class Fibres:
     def of(
         cls, laws: Sequence[Uniaxial], length: Floats, area: Floats, start: Floats | float = 0.0
     ) -> Self:
-        """Return points with a law each; equal laws are one."""
+        """Return points with a law each; equal laws are stored once."""
         known = tuple(dict.fromkeys(laws))
         number = {law: index for index, law in enumerate(known)}
         law = np.array([number[one] for one in laws], dtype=np.int64)
@@ -57,12 +57,12 @@ class Fibres:
 
     @cached_property
     def elastic(self) -> Bools:
-        """(m,) which have no yield value."""
+        """(m,) whether they have no yield stress."""
         return np.array([law.elastic for law in self.laws], dtype=bool)[self.law]
 
     @cached_property
     def linear(self) -> bool:
-        """Whether all forces are lines in the ways."""
+        """Whether all forces are linear in the elongations."""
         return all(law.linear for law in self.laws)
 
     @cached_property
@@ -71,11 +71,11 @@ class Fibres:
 
     @cached_property
     def stiffness(self) -> Floats:
-        """(m,) elastic (N/m)."""
+        """(m,) elastic stiffness (N/m)."""
         return np.asarray(self.area * self._modulus / self.length)
 
     def answer(self, way: Floats, memory: Floats) -> FibreAnswer:
-        """Return the answer to ways (m,) in m, with memory (m, 2) of the start of the step."""
+        """Return forces and tangents at elongations (m,) (m); ``memory`` (m, 2) is that before."""
         trial = self.start + self._modulus * (way / self.length - memory[:, 0])
         if self.linear:
             return FibreAnswer(self.area * trial, self.stiffness, memory)
@@ -88,7 +88,7 @@ class Fibres:
         return FibreAnswer(self.area * force, self.area / self.length * tangent, after)
 
     def energy(self, force: Floats) -> float:
-        """Stored (J) at forces (m,) in N."""
+        """Energy (J) stored at forces (m,) (N)."""
         stress, density = force / self.area, np.empty_like(force)
         for number, law in enumerate(self.laws):  # a handful of laws
             at = np.flatnonzero(self.law == number)
@@ -96,6 +96,6 @@ class Fibres:
         return float(density @ (self.area * self.length))
 
     def loss(self, forces: tuple[Floats, Floats], memories: tuple[Floats, Floats]) -> float:
-        """Taken (J) by plastic ways between forces (m,) and memories (m, 2) of two states."""
+        """Energy (J) dissipated between two states of forces (m,) (N) and memories (m, 2)."""
         mean = (forces[0] + forces[1]) / 2
         return float((mean * self.length) @ (memories[1][:, 0] - memories[0][:, 0]))

@@ -1,4 +1,4 @@
-"""Foundations: springs spread along edges between blocks and the ground (Winkler 1867)."""
+"""The effect: elastic foundations along edges of blocks (Winkler 1867)."""
 
 from typing import TYPE_CHECKING, Self
 
@@ -19,16 +19,15 @@ if TYPE_CHECKING:
     from nmm.effects.change import Change
     from nmm.scene.tables.members import FoundationTable
 
-# Least degree that pressures along an edge are integrated to; and where they may end on the way
-# along one, whose end is then known to a twentieth of it.
+# Least degree of the quadrature along an edge; and that where the pressure may end on the edge,
+# whose end is then found to a twentieth of its length.
 LEAST_ORDER, LIFTING_ORDER = 4, 40
 
 
 class Foundations(Linked):
-    """All ``[[foundations]]`` of a scene: at points along their edges, across and along these.
+    """All ``[[foundations]]`` of a scene: springs across and along edges, at quadrature points.
 
-    The ground stays, and so do the directions in which it pushes. A foundation is stretched where
-    the block leaves it.
+    Their directions are fixed. Where a block lifts off, springs are in tension.
     """
 
     name = "foundations"
@@ -55,7 +54,7 @@ class Foundations(Linked):
         return cls(setup, Members.without_slip(names, places, links, axial))
 
     def _offset_on(self, members: Members, change: "Change") -> Floats:
-        """See `Linked`: that of the nearest point of the edge; points of new material have none."""
+        """See `Linked`: that of the nearest point of the edge; nan on new material."""
         from scipy.spatial import cKDTree
 
         old, new = self.members.links.second, members.links.second
@@ -69,7 +68,7 @@ class Foundations(Linked):
 
 
 def _sides_of(members: Members) -> dict[tuple[str, str], slice]:
-    """Return where the links of each foundation lie, across its edge and along it."""
+    """Return the numbers of the links of each foundation, across its edge and along it."""
     ends = np.cumsum(members.places)
     return {
         (name, side): slice(end - count // 2 * left, end - count // 2 * (left - 1))
@@ -92,7 +91,7 @@ def _place(setup: Setup, table: "FoundationTable") -> Place:
 def _sides(
     table: "FoundationTable", place: Place, setup: Setup
 ) -> list[tuple[Place, Floats, Uniaxial, Floats]]:
-    """Place, directions (m, 2), law and area (m,) across and along the edge."""
+    """Place, directions (m, 2), law and area (m,) (m2) across and along the edge."""
     assert place.normal is not None
     across = -place.normal
     along = np.stack([-across[:, 1], across[:, 0]], axis=1)

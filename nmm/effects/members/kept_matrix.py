@@ -1,4 +1,4 @@
-"""The matrix of members, kept from step to step while what it is made of hardly changes."""
+"""A cached stiffness matrix of members, renewed when its inputs change by more than a share."""
 
 from collections.abc import Callable
 
@@ -10,13 +10,13 @@ from nmm.assembly.motion import State
 from nmm.effects.base import Setup
 from nmm.effects.members.links import LinesOfAction, Links
 
-# Where members turn the matrix of an earlier step serves while what it is made of is off by no more
-# than this share of the largest: what it misses is solved for within the step.
+# Relative change of its inputs up to which the matrix of an earlier step serves where members turn:
+# Newton's method within the step accounts for the difference.
 LIKE = 1e-3
 
 
 class KeptMatrix:
-    """A matrix of links between the blocks of a model, and what it was made of."""
+    """A matrix of links between the blocks of a model, with the inputs that it was made of."""
 
     def __init__(self, setup: Setup) -> None:
         self._made: tuple[tuple[Floats, ...], csc_array] | None = None
@@ -26,11 +26,12 @@ class KeptMatrix:
     def parts(
         self, links: Links, state: State, lines: LinesOfAction, force: Floats, tangent: Floats
     ) -> tuple[Floats, ...]:
-        """Return what makes the matrix of forces (m,) with tangents (m,) of their own.
+        """Return the inputs of the matrix of forces (m,) (N) with tangents (m,) (N/m).
 
-        Small turns count beside one of 1 rad. Where friction alone holds a block that rests, forces
-        that turn are all its stiffness: they count beside nothing but the rounding of that of the
-        blocks. Blocks that move have their mass: there they count beside the stiffness along.
+        Each array ends with the size that its changes are compared with: 1 rad for rotations. In
+        statics the geometric stiffness may be all that holds a block beside friction, so that it is
+        compared with the rounding of the stiffness of blocks; in dynamics blocks have mass, and it
+        is compared with the axial stiffness.
         """
         turns = np.append(state.frames.angle[links.bodies], 1.0)
         least = tangent.max(initial=self._rounding) if self._moves else self._rounding
@@ -39,18 +40,18 @@ class KeptMatrix:
     def of(
         self, made_of: tuple[Floats, ...], like: float, make: Callable[[], csc_array]
     ) -> csc_array:
-        """Return the matrix; what ``make`` makes where it would differ by more than a share."""
+        """Return the matrix; made anew if an input has changed by more than the share ``like``."""
         if self._made is None or not _alike(self._made[0], made_of, like):
             self._made = made_of, make()
         return self._made[1]
 
     def forget(self) -> None:
-        """Keep nothing."""
+        """Drop the matrix."""
         self._made = None
 
 
 def _alike(some: tuple[Floats, ...], others: tuple[Floats, ...], share: float) -> bool:
-    """Whether arrays differ by no more than a share of their largest numbers."""
+    """Whether arrays differ by no more than a share of their largest entries."""
     return all(
         np.abs(one - other).max(initial=0.0) <= share * np.abs(one).max(initial=0.0)
         for one, other in zip(some, others, strict=True)

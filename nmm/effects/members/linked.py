@@ -1,4 +1,4 @@
-"""The base of effects that pull along links between points, with what they remember by member."""
+"""The base of effects of members: axial forces along links between points, with memory."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Self
@@ -21,12 +21,12 @@ if TYPE_CHECKING:
     from nmm.effects.change import Change
 
 
-# Share of the largest size by which rounding parts sizes that are alike, at either end of a bar.
+# Relative difference below which forces differ by rounding alone, as at both ends of a bar.
 ALIKE = 1e-6
 
 
 class Linked(Effect):
-    """Members that pull their ends together by laws of the stretch between them."""
+    """Members whose axial forces follow from the elongation between their ends."""
 
     on_paths = True
 
@@ -42,12 +42,12 @@ class Linked(Effect):
 
     @property
     def nonlinear(self) -> bool:
-        """Whether forces are no lines in the unknowns of a step."""
+        """See `Effect.nonlinear`."""
         return not (self.members.links.small and self.members.chains.linear)
 
     @property
     def limited(self) -> bool:
-        """See `Effect.limited`: yield values, bonds that slide, and cables that go slack."""
+        """See `Effect.limited`: yielding, sliding bond, and slack cables."""
         return not self.members.chains.linear
 
     def force(self, state: State, end: Instant) -> Floats:
@@ -65,7 +65,7 @@ class Linked(Effect):
         return joined([links.first.pushed(pull), links.second.pushed(-pull)])
 
     def matrix(self, state: State) -> csc_array:
-        """See `Effect.matrix`; the same object as long as it would hardly be another."""
+        """See `Effect.matrix`; the same object while its inputs hardly change (`KeptMatrix`)."""
         return self._matrices.of(state)
 
     def _stiffness(self, state: State) -> csc_array:
@@ -93,7 +93,7 @@ class Linked(Effect):
             lines = links.mean_lines(before, after)
             force = force + (1 - weight) * start.axial.force
             pull = links.pull(before, lines, force)
-            pull += links.owed(self._model, before, after, lines, force)
+            pull += links.moment_correction(self._model, before, after, lines, force)
         else:
             lines = links.lines(after)
             pull = links.pull(before, lines, force)
@@ -113,7 +113,7 @@ class Linked(Effect):
         return chains.axial.energy(found.axial.force) + chains.bond.energy(found.bond.force)
 
     def loss(self, before: State, after: State) -> float:
-        """See `Effect.loss`: by yielding and sliding."""
+        """See `Effect.loss`: by yielding and by sliding bond."""
         chains = self.members.chains
         ends = [self._answers.of(one) for one in (before, after)]
         pairs = ((chains.axial, [e.axial for e in ends]), (chains.bond, [e.bond for e in ends]))
@@ -123,13 +123,13 @@ class Linked(Effect):
         )
 
     def first_work(self, before: State, after: State) -> float:
-        """See `Effect.first_work`: half of what forces at the start take, which nothing held."""
+        """See `Effect.first_work`: half of the work of the forces at the start."""
         links, force = self.members.links, self._answers.of(before).axial.force
         way = links.stretch(after) - links.stretch(before)
         return float(force @ way) / 2
 
     def history(self, state: State) -> dict[str, float]:
-        """Return the axial force of the largest size in each member (N), and such slips (m)."""
+        """Return the largest axial force (N) and the largest slip (m) of each member."""
         members, found = self.members, self._answers.of(state)
         row = _largest(members.names, members.owner, found.axial.force, "force")
         if len(found.slip):
@@ -139,13 +139,13 @@ class Linked(Effect):
     def segments(self, state: State) -> MemberSegments:
         """See `Effect.segments`."""
         members, found = self.members, self._answers.of(state)
-        slip = np.append(found.slip, 0.0)  # -1, a fixed end, has none
+        slip = np.append(found.slip, 0.0)  # -1 is a fixed end
         mean = (slip[members.chains.left] + slip[members.chains.right]) / 2
         place = members.links.place(state)
         return MemberSegments(place, members.owner, members.names, found.axial.force, mean)
 
     def carried(self) -> tuple[Floats]:
-        """See `Effect.carried`: stretches at which links were put in."""
+        """See `Effect.carried`: elongations at which links were installed."""
         return (self._offset,)
 
     def carry(self, carried: tuple[Floats]) -> None:
@@ -165,7 +165,7 @@ class Linked(Effect):
         self._kept.forget()
 
     def follow(self, change: "Change") -> Self:
-        """Return the members on the new model; those that are new are put in as all stands."""
+        """Return the members on the new model; new ones are installed in the present state."""
         new = type(self).from_setup(change.setup)
         known = self._offset_on(new.members, change)
         now = new.members.links.stretch(change.state)
@@ -173,11 +173,11 @@ class Linked(Effect):
         return new
 
     def _offset_on(self, members: Members, change: "Change") -> Floats:
-        """Stretch (m,) at which members on the new model were put in; nan of those that are new."""
+        """Elongation (m,) at which links of the new model were installed; nan for new ones (m)."""
         return np.asarray(members.memory(self._offsets(), np.nan)[members.of_link, 0])
 
     def _offsets(self) -> dict[str, Floats]:
-        """Return the offset at each place of memory by member; new members have none."""
+        """Return the elongation at installation at each place of memory, by member."""
         whole = np.zeros((sum(self.members.places), WIDTH))
         whole[self.members.of_link, 0] = self._offset
         return self.members.remembered(whole)
@@ -208,9 +208,9 @@ class Linked(Effect):
 
 
 def _largest(names: Sequence[str], owner: Ints, values: Floats, what: str) -> dict[str, float]:
-    """Return the value (m,) of the largest size of each member by its column.
+    """Return the value (m,) of the largest magnitude of each member by its column.
 
-    Of sizes that differ by rounding the first along the member is taken: rounding chooses no sign.
+    Of magnitudes that differ by rounding the first along the member is taken.
     """
     sizes, most = np.abs(values), np.zeros(len(names))
     np.maximum.at(most, owner, sizes)

@@ -1,8 +1,8 @@
-"""Links between two ends each: how far they stretch, where they pull, with finite motion.
+"""Links between two ends: elongation, line of action and stiffness in finite motion.
 
-A force through a step acts along the line between the mean places of both ends, so that pairs of
-forces keep linear and angular momentum; divided by the mean of both lengths, the mean of an
-elastic force does the work that is stored (Simo and Tarnow 1992).
+The force of a step acts along the line between the midpoints of the motion of both ends, so that
+pairs of forces conserve linear and angular momentum. Divided by the mean of both lengths, the mean
+of an elastic force does the work that is stored (Simo and Tarnow 1992).
 """
 
 from dataclasses import dataclass
@@ -20,14 +20,14 @@ from nmm.effects.members.ends import MemberEnds
 
 @dataclass(frozen=True)
 class LinesOfAction:
-    """Where links pull.
+    """Lines of action of links.
 
     Attributes
     ----------
     along
-        (m, 2) what a force is multiplied by: the unit vectors from first to second ends.
+        (m, 2) unit vectors from first to second ends, by which forces are multiplied.
     across
-        (m,) by how much ``along`` turns over a motion across it (1/m); 0 where it stays.
+        (m,) rotation of ``along`` for a motion across it (1/m); 0 where it is fixed.
     """
 
     along: Floats
@@ -35,22 +35,23 @@ class LinesOfAction:
 
     @property
     def normal(self) -> Floats:
-        """(m, 2) the same turned by a right angle."""
+        """(m, 2) unit vectors across them."""
         return np.stack([-self.along[:, 1], self.along[:, 0]], axis=1)
 
 
 @dataclass(frozen=True)
 class Links:
-    """Links.
+    """Links between pairs of ends.
 
     Attributes
     ----------
     first, second
-        Their ends.
+        The m ends.
     direction
-        (m, 2) unit vectors from first to second as drawn.
+        (m, 2) unit vectors from first to second ends in the reference configuration.
     small
-        Whether they pull as drawn however their ends move, and a way across stretches none.
+        Whether displacements are small: lines of action are fixed, and motion across does not
+        stretch.
     """
 
     first: MemberEnds
@@ -69,22 +70,22 @@ class Links:
 
     @cached_property
     def vector(self) -> Floats:
-        """(m, 2) from first to second end as drawn (m)."""
+        """(m, 2) from first to second ends in the reference configuration (m)."""
         return np.asarray(self.second.position - self.first.position)
 
     @cached_property
     def length(self) -> Floats:
-        """(m,) as drawn (m)."""
+        """(m,) reference lengths (m)."""
         return np.asarray(np.hypot(*self.vector.T))
 
     @cached_property
     def drawn(self) -> LinesOfAction:
-        """LinesOfAction as drawn, which stay."""
+        """Lines of action in the reference configuration."""
         return LinesOfAction(self.direction, np.zeros(len(self)))
 
     @cached_property
     def bodies(self) -> Ints:
-        """Bodies that they are tied to."""
+        """Numbers of the bodies that they are connected to."""
         return np.unique(
             np.concatenate([end.points.body[end.held > 0] for end in (self.first, self.second)])
         )
@@ -95,16 +96,16 @@ class Links:
         return bool((self.first.held * self.second.held == 0).any())
 
     def way(self, state: State) -> Floats:
-        """Return how far second ends have come from first ones (m, 2)."""
+        """Return the displacement of second ends relative to first ones (m, 2) (m)."""
         return self.second.way(state) - self.first.way(state)
 
     def place(self, state: State) -> Floats:
-        """Return where both ends are (m, 2, 2)."""
+        """Return the present places of both ends (m, 2, 2) (m)."""
         ends = (self.first, self.second)
         return np.stack([end.position + end.way(state) for end in ends], axis=1)
 
     def stretch(self, state: State) -> Floats:
-        """Return by how much they are longer than drawn (m,), to the rounding of the motion."""
+        """Return the elongation (m,) (m), without cancellation."""
         way = self.way(state)
         if self.small:
             return np.asarray((way * self.direction).sum(axis=1))
@@ -112,7 +113,7 @@ class Links:
         return np.asarray((way * (2 * self.vector + way)).sum(axis=1) / (now + self.length))
 
     def lines(self, state: State) -> LinesOfAction:
-        """Return where they pull in a state."""
+        """Return the lines of action in a state."""
         if self.small:
             return self.drawn
         now = self.vector + self.way(state)
@@ -120,7 +121,7 @@ class Links:
         return LinesOfAction(now / length[:, None], 1 / length)
 
     def mean_lines(self, before: State, after: State) -> LinesOfAction:
-        """Return where they pull through a step."""
+        """Return the lines of action through a step."""
         if self.small:
             return self.drawn
         start, end = (self.vector + self.way(one) for one in (before, after))
@@ -128,14 +129,14 @@ class Links:
         return LinesOfAction((start + end) / sums[:, None], 1 / sums)
 
     def rows(self, state: State, directions: Floats) -> csr_array:
-        """(m, n) from the unknowns of a step to the motion apart along directions (m, 2)."""
+        """(m, n) from the unknowns of a step to the relative motion along directions (m, 2)."""
         unknowns, values = self._apart(state, directions)
         ends = np.arange(len(values) + 1) * values.shape[1]
         shape = (len(values), len(state.deformation))
         return csr_array((values.ravel(), unknowns.ravel(), ends), shape=shape)
 
     def _apart(self, state: State, directions: Floats) -> tuple[Ints, Floats]:
-        """Unknowns and rows (m, L) of the motion apart along directions (m, 2)."""
+        """Unknowns and rows (m, L) of the relative motion along directions (m, 2)."""
         parts = [(self.second, directions), (self.first, -directions)]
         values = np.concatenate([end.along(state.frames, way) for end, way in parts], axis=1)
         return self._unknowns, values
@@ -146,7 +147,7 @@ class Links:
         return np.concatenate([end.points.rows.unknowns for end in ends], axis=1)
 
     def pull(self, state: State, lines: LinesOfAction, force: Floats) -> Floats:
-        """Force (n,) on the unknowns of axial forces (m,)."""
+        """Force (n,) on the unknowns of axial forces (m,) (N)."""
         n = len(state.deformation)
         if not force.any():
             return np.zeros(n)
@@ -157,7 +158,7 @@ class Links:
     def stiffness(
         self, state: State, lines: LinesOfAction, tangent: csr_array, force: Floats
     ) -> csc_array:
-        """Matrix (n, n) of a tangent (m, m) along the lines and of forces (m,) that turn."""
+        """Stiffness (n, n): of a tangent (m, m), and the geometric one of forces (m,)."""
         n, turning = len(state.deformation), force * lines.across
         found = csc_array((n, n))
         if tangent.data.any():
@@ -168,10 +169,10 @@ class Links:
             found = csc_array(found + across.T @ diags_array(turning) @ across)
         return found
 
-    def owed(
+    def moment_correction(
         self, model: Model, before: State, after: State, lines: LinesOfAction, force: Floats
     ) -> Floats:
-        """Moments, as forces (n,), that rows at the start of a step lack of those half way."""
+        """Moments, as forces (n,), by which arms at the middle of a step differ from its start."""
         if self.small or not force.any():
             return np.zeros(len(before.deformation))
         moment = np.zeros((model.manifold.n_bodies, 3))

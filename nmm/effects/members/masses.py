@@ -1,4 +1,4 @@
-"""Masses at points of blocks."""
+"""The effect: point masses on blocks."""
 
 from dataclasses import replace
 from typing import TYPE_CHECKING, Self
@@ -34,7 +34,7 @@ class PointMasses(Effect):
         return cls(ends, _masses(setup)[:, None] * down)
 
     def force(self, state: State, end: Instant) -> Floats:
-        """Return the weights in the bodies' axes."""
+        """Return the load vector (n,) of the weights in the axes of the bodies."""
         rows = self._ends.points.rows
         local = self._ends.along(state.frames, self._weight)
         total = np.zeros(len(state.deformation))
@@ -42,11 +42,11 @@ class PointMasses(Effect):
         return total
 
     def applied_forces(self, state: State) -> AppliedForces:
-        """See `Effect.applied_forces`; what they weigh alone."""
+        """See `Effect.applied_forces`: the weights."""
         return self._ends.pushed(self._weight)
 
     def work(self, before: State, after: State) -> float:
-        """Weights times the ways of their points."""
+        """Work (J) of the weights."""
         return float(np.sum(self._weight * (self._ends.way(after) - self._ends.way(before))))
 
 
@@ -72,14 +72,14 @@ def _masses(setup: Setup) -> Floats:
 
 
 def loaded(setup: Setup) -> "Model":
-    """Return the model of a setup with the ``[[masses]]`` of its scene.
+    """Return the model of a setup with the ``[[masses]]`` of its scene in its mass matrix.
 
     Raises
     ------
     SceneError
-        A mass that lies on no block.
+        A mass lies on no block.
     FormulationError
-        A lumped mass where covers overlap.
+        The mass is lumped and covers overlap.
     """
     model, manifold = setup.model, setup.model.manifold
     rows = _ends(setup).points.rows.matrix(manifold.n_unknowns)

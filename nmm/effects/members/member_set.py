@@ -1,4 +1,4 @@
-"""The members of one effect as links and slips, and their places in what is remembered."""
+"""The members of one effect as links and slips, and their places in the memory of a state."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from nmm.effects.members.chains import NONE, Chains
 from nmm.effects.members.fibres import Fibres
 from nmm.effects.members.links import Links
 
-# Of a place of memory: slip, plastic slip and its length, plastic stretch and its length.
+# Columns of memory: slip; plastic slip and its length; plastic strain and its length.
 SLIP, BOND, AXIAL, WIDTH = 0, slice(1, 3), slice(3, 5), 5
 
 
@@ -22,13 +22,13 @@ class Members:
     Attributes
     ----------
     names, places
-        Of each member, and how many places of memory it has.
+        Name of each member, and its number of places of memory.
     links, chains
-        All of their m links, and how they answer.
+        The m links of all members, and the chains that they form.
     owner
         (m,) the member of each link.
     of_link, of_slip
-        (m,) and (p,) places of memory, of all members one after the other.
+        (m,) and (p,) places of memory of links and slips, counted through all members.
     """
 
     names: tuple[str, ...]
@@ -43,19 +43,19 @@ class Members:
     def without_slip(
         cls, names: tuple[str, ...], places: tuple[int, ...], links: Links, axial: Fibres
     ) -> Self:
-        """Return members of so many links each, none of which slips."""
+        """Return members of ``places`` links each, none of which slips."""
         owner = np.repeat(np.arange(len(names)), places)
         chains, all_of_them = Chains.without_slip(axial), np.arange(len(links))
         return cls(names, places, links, chains, owner, all_of_them, NONE)
 
     @property
     def slip_owner(self) -> Ints:
-        """(p,) the member of each slip."""
+        """(p,) member of each slip."""
         ends = np.cumsum(self.places)
         return np.asarray(np.searchsorted(ends, self.of_slip, side="right"))
 
     def memory(self, known: Mapping[str, Floats], fresh: float = 0.0) -> Floats:
-        """Return what all remember, (places, 5); ``fresh`` numbers of those that are not known."""
+        """Return the memory (places, 5) of all members; ``fresh`` for those that are new."""
         parts = [
             known.get(name, np.full((places, WIDTH), fresh))
             for name, places in zip(self.names, self.places, strict=True)
@@ -63,6 +63,6 @@ class Members:
         return np.concatenate([np.zeros((0, WIDTH)), *parts])
 
     def remembered(self, whole: Floats) -> dict[str, Floats]:
-        """Return what each remembers by its name."""
+        """Return the memory of each member by its name."""
         parts = np.split(whole, np.cumsum(self.places)[:-1])
         return dict(zip(self.names, parts, strict=True))

@@ -1,4 +1,4 @@
-"""Springs between points of blocks, or a point and the ground."""
+"""The effect: springs between points of blocks, or a point and the ground."""
 
 from typing import TYPE_CHECKING, Self
 

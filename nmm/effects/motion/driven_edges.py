@@ -1,4 +1,4 @@
-"""Edges beside ground that goes on: dashpots against their velocity, and what the ground does."""
+"""Absorbing edges: dashpots, and the tractions of the moving ground beyond them."""
 
 from collections.abc import Sequence
 from typing import Protocol
@@ -13,24 +13,24 @@ from nmm.effects.motion.edge_dashpots import EdgeDashpots
 
 
 class DrivenEdge(Protocol):
-    """An edge with dashpots, on which the ground beyond acts whether the edge moves or not."""
+    """An edge with dashpots and tractions of the ground beyond."""
 
     @property
     def dashpots(self) -> EdgeDashpots:
-        """Those of the ground beyond."""
+        """Dashpots of the ground beyond."""
 
     @property
     def driven(self) -> bool:
-        """Whether the ground moves."""
+        """Whether the ground beyond moves."""
 
     def traction(self, time: float) -> Floats:
-        """Tractions (m, 2) of the ground on an edge that stands still (Pa)."""
+        """Tractions (m, 2) of the ground on a fixed edge at a time (Pa)."""
 
 
 class DrivenEdges(Effect):
     """Dashpots on edges and the tractions of the ground beyond.
 
-    What the dashpots took is booked as lost, what the ground brought as work.
+    The energy of the dashpots is booked as lost, that of the tractions as work.
     """
 
     def __init__(self, edges: Sequence[DrivenEdge], n_unknowns: int) -> None:
@@ -48,14 +48,14 @@ class DrivenEdges(Effect):
         return self._matrix
 
     def force(self, state: State, end: Instant) -> Floats:
-        """Return what the ground does on the edges, but for their own velocity."""
+        """Return the force (n,) of the tractions of the ground."""
         total = np.zeros(self._n)
         for one in self._driven:  # a handful
             total += one.dashpots.push(state, one.traction(end.time))
         return total
 
     def work(self, before: State, after: State) -> float:
-        """Mean of the tractions at both ends of the step times the motion of the edges."""
+        """Work (J) of the mean of the tractions at both ends of the step."""
         total = 0.0
         for one in self._driven:  # a handful
             mean = (one.traction(before.time) + one.traction(after.time)) / 2

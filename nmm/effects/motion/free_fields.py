@@ -1,4 +1,4 @@
-"""Free-field boundaries: columns of ground beside the model that drive its sides."""
+"""The effect: free-field boundaries, driven by columns of ground beside the model."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Self
@@ -18,8 +18,8 @@ from nmm.errors import Fault, GeometryError, SceneError
 if TYPE_CHECKING:
     from nmm.scene.tables.shaking.boundaries import FreeFieldTable
 
-# Linear elements of a column to a piece of the edge between two vertices of the mesh: one beside
-# finite elements, so that waves are as fast in both; beside functions of higher degree so many.
+# Linear elements of a column for each edge of the mesh beside functions of higher degree; beside
+# linear elements it is one, so that waves are equally fast in both.
 FINER = 6
 # Share of the shear stiffness beyond which an upright strain shears the ground.
 LEANING = 1e-9
@@ -27,16 +27,16 @@ LEANING = 1e-9
 
 @dataclass(frozen=True)
 class FreeField:
-    """One side: its dashpots, and the columns of motion along x and along y.
+    """One side of a model: its dashpots, and its columns.
 
     Attributes
     ----------
     dashpots
-        On the edge.
+        Dashpots on the edge.
     columns
-        Along x (shear) and along y (pressure waves).
+        Columns of motion along x (S-waves) and along y (P-waves).
     lateral
-        (m,) stress across a column over that along it, of pressure waves.
+        (m,) horizontal over vertical stress of P-waves.
     """
 
     dashpots: EdgeDashpots
@@ -45,11 +45,11 @@ class FreeField:
 
     @property
     def driven(self) -> bool:
-        """A free field moves as its base does."""
+        """A free field always moves with its base."""
         return True
 
     def traction(self, time: float) -> Floats:
-        """Tractions (m, 2) of the free field on the edge: its stress, and its dashpots' pull."""
+        """Tractions (m, 2) of the free field on the edge, by its stress and its velocity (Pa)."""
         height, level = self.columns[0].height, self.dashpots.place.position[:, 1]
         velocity = [np.interp(level, height, one.velocity(time)) for one in self.columns]
         element = np.clip(np.searchsorted(height, level) - 1, 0, len(height) - 2)
@@ -62,7 +62,7 @@ class FreeField:
 
 
 class FreeFields(DrivenEdges):
-    """Sides of a model that goes on beyond them as level ground."""
+    """Sides of a model beyond which the ground is level and extends to infinity."""
 
     name = "free fields"
 
@@ -121,7 +121,7 @@ def _refuse_leaning(setup: Setup, table: "FreeFieldTable", elasticity: Floats) -
 
 
 def _layers(place: Place, finer: int) -> tuple[Floats, Floats]:
-    """Nodes (k + 1,) of a column from below, and the element (k,) of the model beside each."""
+    """Nodes (k + 1,) of a column from below (m), and the element (k,) of the model beside each."""
     assert place.piece is not None
     first = np.flatnonzero(np.diff(place.piece, prepend=-1))
     length = np.add.reduceat(place.weight, first)
@@ -136,7 +136,7 @@ def _layers(place: Place, finer: int) -> tuple[Floats, Floats]:
 def _base(
     setup: Setup, table: "FreeFieldTable", axis: int, own: float
 ) -> tuple[float | None, Drive]:
-    """Return impedance and incoming velocity below a column, or the displacement of its base."""
+    """Return impedance and incoming velocity below a column; or None and its displacement."""
     scene = setup.scene
     boundary = next((one for one in scene.viscous_boundaries if one.name == table.base), None)
     if boundary is not None:

@@ -1,4 +1,4 @@
-"""Where the ground is that supports hold: displaced by a factor, and along records."""
+"""Prescribed displacement of supports: constant, by a field, by a history, or by records."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -18,16 +18,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Ground:
-    """Displacement of the ground under a support, by the instant.
+    """Prescribed displacement of the ground at a support, as a function of the instant.
 
     Attributes
     ----------
     way, factor
-        A displacement by the time, (2,) or (m, 2) in m, and its factor.
+        Displacement at factor 1 as a function of time, (2,) or (m, 2) (m), and its factor.
     motions
-        Motions along x (0) and y (1).
+        Records along x (0) and y (1).
     still
-        Whether it stays where it is in dynamics.
+        Whether it does not move in dynamics.
     """
 
     way: Callable[[float], Floats]
@@ -37,7 +37,7 @@ class Ground:
 
     @classmethod
     def of(cls, setup: Setup, support: "SupportTable", place: Place) -> Self:
-        """Return the ground of a scene's support."""
+        """Return the ground at a support of the scene."""
         motions = _motions(setup, support)
         moves = any(support.displacement) or support.field is not None
         way, varies = _way(setup, support, place)
@@ -53,14 +53,14 @@ class Ground:
 
     @property
     def step(self) -> float | None:
-        """Shortest time between samples of a record (s); None without records."""
+        """Shortest interval between samples of its records (s); None without records."""
         return min((one.shortest_step for one in self.motions.values()), default=None)
 
 
 def _way(
     setup: Setup, support: "SupportTable", place: Place
 ) -> tuple[Callable[[float], Floats], bool]:
-    """Return the displacement at factor 1 by the time, and whether that matters."""
+    """Return the displacement at factor 1 as a function of time, and whether it varies."""
     if support.field is None:
         way = np.array(support.displacement)
         return (lambda time: way), False
@@ -72,7 +72,7 @@ def _way(
 
 
 def _motions(setup: Setup, support: "SupportTable") -> "dict[int, GroundMotion]":
-    if not support.motion or setup.scene.inertia is None:  # a stage at rest stands still
+    if not support.motion or setup.scene.inertia is None:  # records act in dynamics alone
         return {}
     from nmm.effects.motion.record import motions_of
 

@@ -1,7 +1,7 @@
-"""Layered ground in one dimension: waves going up and down a column, for the free field.
+"""One-dimensional wave propagation in a column of layered ground, for the free field.
 
-Linear elements and the trapezoidal rule with a step of its own from the start of the run, so that
-the motion is a function of time alone and nothing of it needs to be stored.
+Linear elements and the trapezoidal rule, with a step of its own from the start of the run, so that
+the motion is a function of time alone, and checkpoints need not store it.
 """
 
 from collections.abc import Callable
@@ -16,29 +16,29 @@ Drive = Callable[[float], float]
 
 
 def still(time: float) -> float:
-    """Motion of what stands still."""
+    """Return zero: the motion of fixed ground."""
     return 0.0
 
 
 @dataclass
 class GroundColumn:
-    """Motion of one component in a column.
+    """Motion of one displacement component in a column.
 
     Parameters
     ----------
     height
-        (k + 1,) nodes from the base up (m).
+        (k + 1,) nodes from the base upwards (m).
     modulus, density
-        (k,) of the elements (Pa, kg/m3).
+        (k,) modulus (Pa) and density (kg/m3) of the elements.
     damping
-        Factors of mass (1/s) and stiffness (s).
+        Rayleigh coefficients of mass (1/s) and stiffness (s).
     step
-        s.
+        Step of the integration (s).
     base
-        Impedance of the ground below (Pa s/m) with the velocity of the wave that comes in from
-        there (m/s); or no impedance, with the displacement of the base (m).
+        Impedance of the ground below (Pa s/m) and the velocity of the incoming wave (m/s); or None
+        and the displacement of the base (m).
     against
-        Velocity of the ground against which mass damps (m/s).
+        Velocity of the ground relative to which the mass term damps (m/s).
     """
 
     height: Floats
@@ -61,7 +61,7 @@ class GroundColumn:
         if impedance is not None:
             self._dampers[1, 0] += impedance
         system = 2 / self.step**2 * self._mass + self._dampers / self.step + self._stiffness / 2
-        # A base that is driven is known: its row and column leave the system.
+        # A prescribed base is no unknown.
         self._free = 0 if impedance is not None else 1
         self._coupling = system[0, 1] if self._free else 0.0
         self._factor = cholesky_banded(np.delete(system, range(self._free), axis=1))
@@ -73,7 +73,7 @@ class GroundColumn:
         return self._at(time, self._velocity)
 
     def stress(self, time: float) -> Floats:
-        """Return the stress (k,) of the elements, with that of the dampers (Pa)."""
+        """Return the stress (k,) of the elements, with that of damping (Pa)."""
         moved = self._at(time, self._displacement)
         moved = moved + self.damping[1] * self._at(time, self._velocity)
         return np.asarray(self.modulus * np.diff(moved) / np.diff(self.height))
@@ -96,7 +96,7 @@ class GroundColumn:
         push += self.damping[0] * _times(self._mass, np.full(len(u), dragged))
         way = np.zeros(len(u))
         if impedance is not None:
-            push[0] += impedance * sum(ends)  # twice the mean of both ends
+            push[0] += impedance * sum(ends)  # twice the mean velocity
         else:
             way[0] = ends[1] - ends[0]
             push[1] -= self._coupling * way[0]

@@ -1,4 +1,4 @@
-"""What a support that a change takes away exerted until then."""
+"""Reactions of supports that a change removes."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,16 +13,16 @@ from nmm.assembly.motion import MaterialPoints, State, material_points
 
 @dataclass(frozen=True)
 class Reactions:
-    """Forces at points of the material that stay as they are.
+    """Constant forces at material points.
 
     Attributes
     ----------
     elements, position
-        (k,) elements and (k, 2) reference places of the points (m).
+        (k,) elements of the points, and (k, 2) their reference places (m).
     force
-        (k, 2) N, in global axes.
+        (k, 2) forces in global axes (N).
     beside
-        (n,) force on the unknowns that points do not tell: it strains bodies and moves none.
+        (n,) self-equilibrated force on the unknowns that forces at the points do not represent.
     """
 
     elements: Ints
@@ -38,7 +38,7 @@ class Reactions:
 
     @classmethod
     def sum(cls, parts: "Sequence[Reactions]", n_unknowns: int) -> Self:
-        """Return all of them."""
+        """Return the forces of several."""
         whole = [Reactions.none(n_unknowns), *parts]
         return cls(
             np.concatenate([one.elements for one in whole]),
@@ -51,12 +51,12 @@ class Reactions:
         return len(self.elements)
 
     def at(self, chosen: Bools) -> "Reactions":
-        """Return those at chosen points (k,); what points do not tell goes with all of them."""
+        """Return the forces at chosen points (k,); with ``beside`` only if these are all."""
         beside = self.beside if chosen.all() else np.zeros_like(self.beside)
         return Reactions(self.elements[chosen], self.position[chosen], self.force[chosen], beside)
 
     def points(self, model: Model) -> MaterialPoints:
-        """Return the points, to be followed."""
+        """Return the material points on a model."""
         return material_points(model.manifold, self.elements, self.position)
 
     def push(self, points: MaterialPoints, state: State) -> Floats:

@@ -1,4 +1,4 @@
-"""A record as a motion: integrated exactly, linear as it is between its samples."""
+"""Ground motion of a record: integrated exactly, linear between its samples."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 Axis = Literal["x", "y"]
 
 JUMP = 100
-"""Two samples are a jump where those beside them are more than so many times as far off."""
+"""Two samples are a jump if their neighbours are more than so many times as far away in time."""
 
 
 @dataclass(frozen=True)
@@ -26,9 +26,9 @@ class GroundMotion:
     Attributes
     ----------
     times
-        (k,) of the samples, increasing (s).
+        (k,) times of the samples, increasing (s).
     acceleration
-        (k, 2) from the right and from the left at the samples, linear between (m/s2).
+        (k, 2) limits from the right and from the left at the samples, linear between (m/s2).
     velocity, displacement
         (k,) at the samples (m/s, m).
     """
@@ -40,7 +40,7 @@ class GroundMotion:
 
     @classmethod
     def of(cls, table: "RecordTable") -> Self:
-        """Return the motion of a scene's record, with its baseline corrected."""
+        """Return the motion of a record of the scene, with baseline correction."""
         times, values = (np.array(column) for column in table.times_and_values)
         if table.quantity == "acceleration":
             return cls.from_acceleration(times, corrected(times, values, table.baseline))
@@ -48,7 +48,7 @@ class GroundMotion:
         slope = np.append(np.diff(values) / steps, 0.0)
         if table.quantity == "velocity":
             way = np.cumsum(np.append(0.0, steps * (values[1:] + values[:-1]) / 2))
-            # A sudden velocity at the first sample is one at the last too.
+            # A jump of the velocity at the first sample has its counterpart at the last.
             both = np.stack([slope, np.append(slope[:1], slope[:-1])], axis=1)
             return cls(times, both, values, way)
         none = np.zeros((len(times), 2))
@@ -56,7 +56,7 @@ class GroundMotion:
 
     @classmethod
     def from_acceleration(cls, times: Floats, values: Floats) -> Self:
-        """Integrate accelerations (k,) in m/s2, linear between ``times`` (k,) in s, from rest."""
+        """Integrate accelerations (k,) (m/s2), linear between ``times`` (k,) (s), from rest."""
         steps = np.diff(times)
         velocity = np.cumsum(np.append(0.0, steps * (values[1:] + values[:-1]) / 2))
         more = velocity[:-1] * steps + steps**2 * (2 * values[:-1] + values[1:]) / 6
@@ -65,9 +65,9 @@ class GroundMotion:
 
     @cached_property
     def shortest_step(self) -> float:
-        """Shortest time between two samples (s), but for those that draw a jump.
+        """Shortest interval between two samples (s), those of a jump excepted.
 
-        These are `JUMP` times as near to each other as to the samples beside them.
+        The samples of a jump are `JUMP` times as near to each other as to their neighbours.
         """
         steps = np.diff(self.times)
         beside = np.pad(steps, 1, constant_values=np.inf)
@@ -75,7 +75,7 @@ class GroundMotion:
         return float(steps.min() if len(steps) < 2 else steps[~jumps].min())
 
     def displacement_at(self, time: float) -> float:
-        """Return the displacement (m)."""
+        """Return the displacement at a time (m)."""
         number, after, slope = self._piece(time)
         if number < 0:
             return float(self.displacement[0])
@@ -86,7 +86,7 @@ class GroundMotion:
         )
 
     def velocity_at(self, time: float) -> float:
-        """Return the velocity (m/s)."""
+        """Return the velocity at a time (m/s)."""
         number, after, slope = self._piece(time)
         if number < 0:
             return 0.0
@@ -94,7 +94,7 @@ class GroundMotion:
         return float(self.velocity[number] + after * (start + after * slope / 2))
 
     def _piece(self, time: float) -> tuple[int, float, float]:
-        """Number of the sample before, the time since, and the slope of the acceleration after."""
+        """Number of the last sample, time since (s), and slope of the acceleration (m/s3)."""
         number = int(np.searchsorted(self.times, time, side="right")) - 1
         if number < 0:
             return -1, 0.0, 0.0
@@ -106,12 +106,12 @@ class GroundMotion:
 
 
 def motions_of(scene: "Scene", named: Mapping[Axis, str]) -> dict[int, GroundMotion]:
-    """Motions along x (0) and y (1) of the records of a scene that are named."""
+    """Return the motions along x (0) and y (1) of named records of a scene."""
     return {"xy".index(axis): GroundMotion.of(scene.records[name]) for axis, name in named.items()}
 
 
 def velocity_of(motions: Mapping[int, GroundMotion], time: float) -> Floats:
-    """Velocity (2,) of motions along x (0) and y (1), zero along others (m/s)."""
+    """Velocity (2,) of motions along x (0) and y (1); zero along an axis without one (m/s)."""
     found = np.zeros(2)
     for axis, motion in motions.items():
         found[axis] = motion.velocity_at(time)
@@ -119,10 +119,10 @@ def velocity_of(motions: Mapping[int, GroundMotion], time: float) -> Floats:
 
 
 def corrected(times: Floats, values: Floats, baseline: str) -> Floats:
-    """Return accelerations (k,) less a constant or a line, so that the motion ends at rest.
+    """Return accelerations (k,) after baseline correction, so that the motion ends at rest.
 
-    With ``c0 + c1 (t - t0)`` taken off, velocity and displacement at the end lose ``c0 T + c1 T^2 /
-    2`` and ``c0 T^2 / 2 + c1 T^3 / 6``.
+    A constant or linear part ``c0 + c1 (t - t0)`` is subtracted, which takes ``c0 T + c1 T^2 / 2``
+    off the final velocity and ``c0 T^2 / 2 + c1 T^3 / 6`` off the final displacement.
     """
     if baseline == "none":
         return values

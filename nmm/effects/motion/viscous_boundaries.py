@@ -1,7 +1,7 @@
-"""Viscous boundaries, and the waves that come in through them (Lysmer and Kuhlemeyer 1969).
+"""The effect: viscous boundaries with incoming waves (Lysmer and Kuhlemeyer 1969).
 
-What supports along an edge exerted when a stage takes them away may stay on it as a load, so that
-what it carries does not drift.
+The reactions of supports that a stage removes from an edge may stay on it as loads, so that the
+model does not drift under its weight.
 """
 
 from collections.abc import Mapping, Sequence
@@ -31,20 +31,20 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ViscousBoundary:
-    """One boundary.
+    """One viscous boundary.
 
     Attributes
     ----------
     name
-        As the scene calls it.
+        Name in the scene.
     dashpots
-        On its edges.
+        Dashpots on its edges.
     incoming
-        The wave that comes in along x (0) and y (1).
+        Incoming waves along x (0) and y (1).
     segment
-        (2, 2) where it lies (m); None is all around its block.
+        (2, 2) its segment (m); None for the whole boundary of its block.
     takes_over
-        Whether reactions of supports that leave it stay as loads.
+        Whether reactions of supports that are removed stay as loads.
     """
 
     name: str
@@ -54,7 +54,7 @@ class ViscousBoundary:
     takes_over: bool = False
 
     def holds(self, reactions: Reactions) -> Bools:
-        """Say which (k,) of reactions act on it."""
+        """Return which of the reactions (k,) act on it."""
         if not self.takes_over:
             return np.zeros(len(reactions), dtype=bool)
         if self.segment is None:
@@ -68,16 +68,15 @@ class ViscousBoundary:
         return bool(self.incoming)
 
     def traction(self, time: float) -> Floats:
-        """Tractions (m, 2) that send the wave in: twice those of its velocity (Pa)."""
+        """Tractions (m, 2) of the incoming wave: twice those of its velocity (Pa)."""
         return 2 * self.dashpots.tractions(velocity_of(self.incoming, time))
 
 
 class ViscousBoundaries(DrivenEdges):
-    """Dashpots on edges, against the velocity, and incoming waves.
+    """All viscous boundaries of a scene.
 
-    What the dashpots took is booked as lost, what the waves brought as work. An edge held by
-    nothing else drifts under a force that stays, with its share of force over impedance, unless it
-    took over the reactions of what held it.
+    An edge held by nothing else drifts under a constant load with the velocity of load over
+    impedance, unless it took over the reactions of the supports before it.
     """
 
     name = "viscous boundaries"
@@ -94,12 +93,12 @@ class ViscousBoundaries(DrivenEdges):
         return cls(found, setup.model)
 
     def take_over(self, left: Sequence[Reactions]) -> None:
-        """See `Effect.take_over`: those along boundaries that ask for them stay as loads."""
+        """See `Effect.take_over`: reactions along boundaries that ask for them stay as loads."""
         parts = [one.at(self._held(one)) for one in left]
         self._stand(Reactions.sum([self._standing, *parts], self._n))
 
     def follow(self, change: "Change") -> "ViscousBoundaries":
-        """Return the boundaries on the new model, with the loads that stay on them."""
+        """Return the boundaries on the new model, with the reactions that act on them."""
         new, known = type(self).from_setup(change.setup), self._standing
         elements = elements_at(change.setup, known.position)
         same = np.array_equal(elements, known.elements) and len(known.beside) == new._n
@@ -109,7 +108,7 @@ class ViscousBoundaries(DrivenEdges):
         return new
 
     def carried(self) -> Reactions:
-        """See `Effect.carried`: the loads that stay."""
+        """See `Effect.carried`: the reactions taken over."""
         return self._standing
 
     def carry(self, carried: Reactions) -> None:
@@ -117,11 +116,11 @@ class ViscousBoundaries(DrivenEdges):
         self._stand(carried)
 
     def force(self, state: State, end: Instant) -> Floats:
-        """Return what sends the waves in, and the loads that stay."""
+        """Return the force (n,) of incoming waves and of reactions taken over."""
         return super().force(state, end) + self._standing.push(self._points, state)
 
     def work(self, before: State, after: State) -> float:
-        """Work of the waves, and of the loads that stay."""
+        """Work (J) of incoming waves and of reactions taken over."""
         stays = self._standing.work(self._points, before, after)
         return super().work(before, after) + stays
 
@@ -146,7 +145,7 @@ class ViscousBoundaries(DrivenEdges):
         return min((motion.shortest_step for motion in waves), default=None)
 
     def history(self, state: State) -> Mapping[str, float]:
-        """Return how far each boundary has drifted in the mean (m)."""
+        """Return the mean displacement of each boundary (m)."""
         found: dict[str, float] = {}
         for one in self.boundaries:
             points, weight = one.dashpots.place.points, one.dashpots.area
@@ -158,7 +157,7 @@ class ViscousBoundaries(DrivenEdges):
 
 def _boundary(setup: Setup, table: "ViscousBoundaryTable") -> ViscousBoundary:
     model = setup.model
-    # Products of two displacements.
+    # Exact for products of two displacements.
     order = 2 * max(model.manifold.degree, 1)
     place = edge_place(setup, "viscous_boundaries", table, order)
     dashpots = EdgeDashpots.of(model, place, ground_of(table))
