@@ -1,1 +1,1 @@
-"""Water: pressures on edges and in joints, seepage through blocks, flow in joints."""
+"""Water: pressures on edges, seepage and consolidation in blocks, flow in joints."""

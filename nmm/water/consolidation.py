@@ -1,15 +1,15 @@
-"""The effect: strain makes room for water, which flows to fill it and presses (Biot 1941).
+"""The effect: consolidation, with flow and strain coupled both ways (Biot 1941).
 
-The water in a unit of volume grows by ``S dh + b d(e)``, ``e`` the strain of the volume. In a step
-from ``h0`` to ``h1``, with ``C`` the force of a unit of pressure on the blocks and so, by its
-transpose, the room that their motion ``d`` makes,
+The fluid content of a unit volume grows by ``S dh + b d(e)``, where ``e`` is the volumetric strain.
+With the force ``C`` of unit pressures on the blocks, whose transpose gives the pore volume that
+their motion ``d`` opens, the balance of a step from ``h0`` to ``h1`` is
 
     (M + dt K) h1 = M h0 + dt f - C^T d,
 
-and ``w C h1`` acts on the blocks: it is linear in ``d``. Its part without strain is a force of the
-step, the rest a matrix ``w C (M + dt K)^-1 C^T`` that stiffens it, which is that of undrained
-material where no water has time to flow. So both are found at once, and steps are stable whatever
-their length.
+and the force ``w C h1`` acts on the blocks. It is linear in ``d``: its part without motion is a
+force of the step, and the rest the matrix ``w C (M + dt K)^-1 C^T``, which is the undrained
+stiffness in the limit of short steps. So heads and motion are found together, and steps of any
+length are stable.
 """
 
 from typing import TYPE_CHECKING, Self
@@ -30,12 +30,12 @@ from nmm.water.pore_water import PoreWater
 if TYPE_CHECKING:
     from nmm.effects.change import Change
 
-# Bytes of an entry of the matrix: it, its place in a column, and both again in a sum.
+# Bytes for each entry of the matrix: value and index, once more in a sum.
 ENTRY = 48
 
 
 class Consolidation(PoreWater):
-    """Head of the water in pores that strain."""
+    """Hydraulic head in pores of a deforming material."""
 
     name = "consolidation"
     _step = 0.0
@@ -43,14 +43,14 @@ class Consolidation(PoreWater):
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
-        """Build from the tables of seepage that is ``coupled``."""
+        """Build from ``[seepage]`` with ``coupled = true``."""
         _refuse_uncoupled(setup)
         found = super().from_setup(setup)
         found.join(setup.start)
         return found
 
     def join(self, start: State) -> None:
-        """Count the room that strain makes from a state on."""
+        """Count the pore volume that strain opens from a state on."""
         began = self.course.began
         assert began is not None
         self.course.go_on_from(with_parts(began, taken_in=self._room(start)))
@@ -62,11 +62,11 @@ class Consolidation(PoreWater):
 
     @property
     def steady(self) -> bool:
-        """See `Effect.steady`: what acts at the end of a step follows from its length."""
+        """See `Effect.steady`: the pressure at the end of a step depends on its duration."""
         return False
 
     def force(self, state: State, end: Instant) -> Floats:
-        """Return the force of the pressure at the end of a step that strains no further."""
+        """Return the force (n,) of the pressure at the end of a step without motion."""
         began = self._begun(state, end)
         time = end.time * self._second
         if time == began.time:
@@ -79,13 +79,13 @@ class Consolidation(PoreWater):
         return self.stress.force(self._pressure(head))  # type: ignore[union-attr]
 
     def matrix(self, state: State) -> csc_array:
-        """Return how the force of the pressure falls with the step's motion (n, n)."""
+        """Return minus the derivative of the pressure's force by the motion (n, n)."""
         if self._stiff is None or self._stiff[0] != self._step:
             self._stiff = self._step, self._stiffness()
         return self._stiff[1]
 
     def accepted(self, state: State) -> None:
-        """See `Effect.accepted`: the head that goes with the strain that was found."""
+        """See `Effect.accepted`: solve for the head with the strain of the accepted state."""
         self.course.make_room(state.time * self._second, self._room(state))
 
     def forget(self) -> None:
@@ -94,14 +94,14 @@ class Consolidation(PoreWater):
         self._stiff = None
 
     def follow(self, change: "Change") -> "Consolidation":
-        """Return the field on the new model, whose strain makes room from here on."""
+        """Return the field on the new model, which counts the pore volume from here on."""
         new = super().follow(change)
         assert isinstance(new, Consolidation)
         new.join(change.state)
         return new
 
     def _stiffness(self) -> csc_array:
-        """Return the matrix of a step of the length that is known."""
+        """Return the matrix for the duration of the present step."""
         assert self.stress is not None
         coupling, problem = self.stress.coupling, self.course.problem
         shape = coupling.shape[0], coupling.shape[0]
@@ -115,7 +115,7 @@ class Consolidation(PoreWater):
         return csc_array((even.ravel(), (row.ravel(), column.ravel())), shape=shape)
 
     def _begun(self, state: State, end: Instant) -> FieldAt:
-        """Return the field at which the step to ``end`` begins."""
+        """Return the field at the start of the step to ``end``."""
         if end.time > state.time:
             self.course.begin(state.time * self._second)
         began = self.course.began
@@ -123,7 +123,7 @@ class Consolidation(PoreWater):
         return began
 
     def _room(self, state: State) -> Floats:
-        """Room (n,) that strain has made, weighed by the functions of the field (m3)."""
+        """Pore volume (n,) opened by strain, weighted by the functions of the field (m3)."""
         assert self.stress is not None
         return np.asarray(self.stress.room @ state.deformation)
 
@@ -132,13 +132,13 @@ class Consolidation(PoreWater):
 
 
 def _refuse_uncoupled(setup: Setup) -> None:
-    """Refuse what strain and water are not solved together with.
+    """Refuse what the coupled solution does not support.
 
     Raises
     ------
     SceneError
-        Steps of the field that are not those of the run; supports that take tractions; too many
-        unknowns for a matrix that is full.
+        Steps of the field differ from those of the run; supports are imposed by tractions; there
+        are too many unknowns for a full matrix.
     """
     place = setup.scene.source.place("seepage", "coupled")
     asked, manifold = setup.formulation.diffusion, setup.model.manifold

@@ -1,19 +1,19 @@
-"""Steady seepage with a free surface, on a net that stays.
+"""Steady unconfined seepage: a free surface on a fixed mesh.
 
-Water fills the pores where its pressure is above that of the air, and flows there by Darcy's law;
-elsewhere ``p = 0`` and nothing flows. With the share ``s`` of filled pores, one where ``p > 0``,
-all of the ground obeys (Brezis, Kinderlehrer and Stampacchia 1978; Alt 1979)
+Below the free surface ``p > 0`` and water flows by Darcy's law; above it ``p = 0`` and nothing
+flows. With the saturation ``s``, which is one where ``p > 0``, the whole domain satisfies (Brezis,
+Kinderlehrer and Stampacchia 1978; Alt 1979)
 
     div (k (grad p / w + s grad y)) = 0,    p >= 0.
 
-The pressure is the limit of those with ``s = min(p / (w l), 1)``, of which none is negative, by the
-principle of the maximum: no condition has to be imposed. ``l`` is about a cell, so that what falls
-through a cell weighs no more than what spreads through it and no upwinding is needed. Edges that
-are open to the air have ``p = 0``, where water leaves and none comes in: seepage faces end by
-themselves. What flows through a wall with upright faces on an even base hangs on ``p`` on its faces
-alone, whatever ``l`` is, as the field ``x`` tests it: ``k (h1^2 - h2^2) / (2 L)`` (Charny 1951).
+The pressure is the limit of those with ``s = min(p / (w l), 1)``, which are not negative by the
+maximum principle, so that no inequality has to be imposed. The width ``l`` is about a cell, so that
+gravity does not dominate diffusion in a cell and no upwinding is needed. Edges that are open to the
+air have ``p = 0`` and let water out but not in, so that seepage faces find their ends. The flow
+through a dam with vertical faces on a level base depends only on ``p`` at its faces, for any ``l``,
+as the test function ``x`` shows: ``k (h1^2 - h2^2) / (2 L)`` (Charny 1951).
 
-In the head ``h = y + p / w`` the equation is that of saturated ground with a load,
+In terms of the head ``h = y + p / w`` the equation is that of saturated ground with a load,
 
     K h = f + int k (1 - s) dphi / dy.
 """
@@ -30,31 +30,31 @@ from integration.rules import polygon_rule
 from nmm.diffusion.problem import DiffusionProblem
 from nmm.errors import SolveError
 
-# Degree of the rule that integrates the share of filled pores, beyond that of the functions.
+# Degree of the quadrature of the saturation, beyond that of the functions.
 FINER = 6
-# Out-of-balance flow, as a share of all flows, that is rounding; solutions for each width; and the
-# least share of a step.
+# Residual over all flows at which Newton's method has converged, its largest number of iterations
+# for each width, and the shortest step of its line search.
 BALANCED, MOST, SHORTEST = 1e-11, 40, 2.0**-10
-# Widths, in that of the answer, through which it is followed.
+# Widths of a continuation, over the width of the answer.
 WIDTHS = (8.0, 4.0, 2.0, 1.0)
 
 
 @dataclass(frozen=True)
 class Filling:
-    """How far pores are filled, at points of all elements.
+    """The saturation at quadrature points of all elements.
 
     Attributes
     ----------
     rows
-        (Q, n) head at the points.
+        (Q, n) values of the functions at the points.
     height
-        (Q,) their y (m).
+        (Q,) y of the points (m).
     fall
-        (n, Q) ``k dphi / dy`` times the part of the volume that a point stands for.
+        (n, Q) ``k dphi / dy`` times the quadrature weight.
     width
-        (E,) pressure head at which pores of an element are full (m).
+        (E,) pressure head at which an element is saturated (m).
     owner, share
-        (Q,) element of each point, and its part of the element.
+        (Q,) element of each point, and its share of the element.
     """
 
     rows: csr_array
@@ -66,13 +66,13 @@ class Filling:
 
     @classmethod
     def of(cls, space: ScalarSpace, conductance: Floats) -> "Filling":
-        """Return that of a space; ``conductance`` (E,) is conductivity times thickness."""
+        """Return it for a space; ``conductance`` (E,) is conductivity times thickness (m2/s)."""
         manifold = space.manifold
         elements, degree = manifold.elements, manifold.degree + 1
         rule = polygon_rule(elements, 2 * degree + FINER)
         upright = np.broadcast_to([0.0, 1.0], rule.points.shape)
         slopes = space.gradients(rule.owner, rule.points, upright)
-        # Slivers have the width of the cells that they are cut from.
+        # Slivers take the width of the cells that they are cut from.
         size = np.sqrt(np.maximum(elements.areas, np.median(elements.areas))) / degree
         return cls(
             space.values(rule.owner, rule.points),
@@ -84,27 +84,27 @@ class Filling:
         )
 
     def filled(self, depth: Floats, elements: Ints, wider: float = 1.0) -> Floats:
-        """Share (m,) of filled pores at pressure heads (m,) in elements (m,)."""
+        """Saturation (m,) at pressure heads (m,) (m) in elements (m,)."""
         return np.clip(depth / (wider * self.width[elements]), 0.0, 1.0)
 
     def load(self, head: Floats, wider: float = 1.0) -> Floats:
-        """Return the load (n,) of what is not filled."""
+        """Return the load (n,) of the unsaturated part (m3/s)."""
         return np.asarray(self.fall @ (1 - self.filled(self.depth(head), self.owner, wider)))
 
     def slope(self, head: Floats, wider: float) -> csc_array:
-        """Derivative (n, n) of the load by the head, with the sign changed."""
+        """Minus the derivative (n, n) of the load by the head."""
         return csc_array(self.fall @ (diags_array(self.steepness(head, wider)) @ self.rows))
 
     def steepness(self, head: Floats, wider: float) -> Floats:
-        """Derivative (Q,) of the share of filled pores by the head (1/m)."""
+        """Derivative (Q,) of the saturation by the head (1/m)."""
         depth, width = self.depth(head), wider * self.width[self.owner]
         return np.where((depth > 0) & (depth < width), 1 / width, 0.0)
 
     def at_rest(self, level: float, points: Floats) -> Floats:
-        """Head (m,) at points (m, 2) of water that stands at a level (m) and does not flow.
+        """Hydrostatic head (m,) at points (m, 2) of water at rest with a level (m).
 
-        ``p' = -w s`` upwards: pores that are filled in part hang on to ``l exp(-y / l)``, as much
-        as what is missing below the level.
+        With ``dp / dy = -w s``, the pressure head decays above the level as ``l exp(-y / l)``, with
+        as much water as is missing below.
         """
         width = float(np.median(self.width))
         below = level - points[:, 1]
@@ -112,7 +112,7 @@ class Filling:
         return points[:, 1] + np.where(below > width, below, hangs)
 
     def means(self, head: Floats) -> Floats:
-        """Mean share (E,) of filled pores of the elements."""
+        """Mean saturation (E,) of the elements."""
         filled = self.filled(self.depth(head), self.owner)
         return np.asarray(np.bincount(self.owner, self.share * filled, len(self.width)), float)
 
@@ -123,12 +123,12 @@ class Filling:
 
 @dataclass(frozen=True, kw_only=True)
 class FreeSurface(DiffusionProblem):
-    """The head of ground that water fills in part.
+    """The problem of the hydraulic head with a free surface.
 
     Attributes
     ----------
     filling
-        How far its pores are filled.
+        The saturation.
     """
 
     filling: Filling
@@ -140,16 +140,16 @@ class FreeSurface(DiffusionProblem):
         return cls(**parts, filling=filling)
 
     def rests(self, unknowns: Floats) -> bool:
-        """See `DiffusionProblem.rests`: what flows hangs on how far pores are filled."""
+        """See `DiffusionProblem.rests`: never, as the flow depends on the saturation."""
         return False
 
     def steady(self, time: float) -> Floats:
-        """Unknowns (n,) of the head.
+        """Return the unknowns (n,) of the steady head.
 
         Raises
         ------
         SolveError
-            Where none is found.
+            Newton's method does not converge.
         """
         found = super().steady(time)
         for wider in WIDTHS:
@@ -157,32 +157,32 @@ class FreeSurface(DiffusionProblem):
         return found
 
     def _newton(self, head: Floats, time: float, wider: float) -> Floats:
-        """Return the head (n,) with widths so much wider, from one nearby."""
+        """Return the head (n,) with widths times ``wider``, from a nearby one."""
         load = self.load(time)
 
-        def missing(one: Floats) -> Floats:
+        def residual_of(one: Floats) -> Floats:
             return np.asarray(load + self.filling.load(one, wider) - self.matrix @ one)
 
         def tangent(one: Floats) -> csc_array:
             return csc_array(self.matrix + self.filling.slope(one, wider))
 
         size = float(np.linalg.norm(load + self.filling.load(head, wider)))
-        return self._balanced(head, Unbalanced(missing, tangent, size))
+        return self._balanced(head, FlowResidual(residual_of, tangent, size))
 
-    def _balanced(self, head: Floats, unbalanced: "Unbalanced") -> Floats:
-        """Return the head (n,) from one nearby whose free part misses nothing."""
-        free, solver, size = self.free, self.solver.unsymmetric(), unbalanced.size
-        left = unbalanced.missing(head)[free]
+    def _balanced(self, head: Floats, residual: "FlowResidual") -> Floats:
+        """Return the head (n,) of zero residual at free unknowns, from a nearby one."""
+        free, solver, size = self.free, self.solver.unsymmetric(), residual.size
+        left = residual.of(head)[free]
         for _ in range(MOST):
             if np.linalg.norm(left) <= BALANCED * size:
                 return head
-            tangent = unbalanced.tangent(head)[free][:, free]
+            tangent = residual.tangent(head)[free][:, free]
             way = np.zeros_like(head)
             way[free] = solver.factorise(csc_array(tangent)).refined(left)
             share = 1.0
             while True:
                 trial, least = head + share * way, (1 - share / 4) * np.linalg.norm(left)
-                after = unbalanced.missing(trial)[free]
+                after = residual.of(trial)[free]
                 if np.linalg.norm(after) <= least or share <= SHORTEST:
                     break
                 share /= 2
@@ -194,9 +194,9 @@ class FreeSurface(DiffusionProblem):
 
 
 @dataclass(frozen=True)
-class Unbalanced:
-    """What a head (n,) misses (n,), its derivative (n, n) with the sign changed, and its size."""
+class FlowResidual:
+    """The residual (n,) of a head (n,), minus its derivative (n, n), and a scale of it."""
 
-    missing: Callable[[Floats], Floats]
+    of: Callable[[Floats], Floats]
     tangent: Callable[[Floats], csc_array]
     size: float

@@ -1,4 +1,4 @@
-"""Pressure of water: below a level or a phreatic line, linear along a segment, or even."""
+"""Given water pressures: hydrostatic below a water table, linear along a segment, or uniform."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -13,14 +13,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class WaterTable:
-    """A water table: hydrostatic pressure below it, none above.
+    """Hydrostatic pressure below a water table, none above.
 
     Attributes
     ----------
     line
-        (k, 2) points, x increasing; beyond its ends it is level (m).
+        (k, 2) points of the table with increasing x (m); it is level beyond its ends.
     weight
-        Weight of water (N/m3).
+        Unit weight of water (N/m3).
     """
 
     line: Floats

@@ -1,4 +1,4 @@
-"""The effect: water that flows steadily in joints, opens them and flows the faster for it."""
+"""The effect: steady flow in joints; pressure opens them, which lets more water through."""
 
 from typing import Self
 
@@ -8,19 +8,19 @@ from nmm.water.joint_water import JointWater
 
 
 class JointFlow(JointWater):
-    """Steady water in the joints of a scene."""
+    """Steady flow in the joints of a scene."""
 
     name = "joint flow"
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
-        """See `JointWater.from_setup`; joints that no head reaches as drawn are refused."""
+        """See `JointWater.from_setup`; joints that are connected to no given head are refused."""
         found = super().from_setup(setup)
         found._refuse_isolated(setup)
         return found
 
     def _refuse_isolated(self, setup: Setup) -> None:
-        """Refuse joints that no head reaches as they are drawn."""
+        """Refuse joints that are connected to no given head in the reference configuration."""
         conductance = self.network.conductance(self.apertures(setup.start))
         lost = self.network.isolated(conductance, self.given(setup.start.time)[0])
         if lost.any():

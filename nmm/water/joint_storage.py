@@ -1,15 +1,15 @@
-"""The effect: water that takes time to flow in joints, as these open and it is compressed.
+"""The effect: transient flow in joints, with storage by their opening and by compressible water.
 
-Of the volume ``V`` of water at a node, half of each joint that ends there or so, ``V dp / K`` is
-compressed and ``dV`` made by the joints that open (Witherspoon and others 1980 for the flow). In a
-step
+The volume ``V`` of water at a node is about half of that of each joint that ends there. A change of
+pressure ``dp`` stores ``V dp / K``, and an opening ``dV``. With the cubic law for the flow
+(Witherspoon and others 1980) the balance of a step is
 
     M (h1 - h0) + dt G h1 = - (V - V0) - C^T d,    M = w V / K,
 
-``G`` by the cubic law with the apertures that are known and ``C`` the force of a unit of pressure
-on the blocks, so that ``C^T d`` is the room that their motion ``d`` makes. As ``w C h1`` acts on
-the blocks and is linear in ``d`` both are found at once: a matrix ``w C (M + dt G)^-1 C^T`` joins
-the step, and steps are stable however stiff the joints are against the water.
+where ``G`` is the conductance with known apertures and ``C`` the force of unit pressures on the
+blocks, so that ``C^T d`` is the volume that their motion ``d`` opens. The force ``w C h1`` on the
+blocks is linear in ``d``; so the matrix ``w C (M + dt G)^-1 C^T`` is added to the stiffness, heads
+and motion are found together, and steps are stable however stiff the water is.
 """
 
 from collections.abc import Mapping
@@ -29,7 +29,17 @@ from nmm.water.joint_water import JointWater
 
 @dataclass(frozen=True)
 class WaterStored:
-    """Water at a time (s): heads (n,) (m), volumes of joints (n,) (m3), and what came, by name."""
+    """The water at a time.
+
+    Attributes
+    ----------
+    time
+        s.
+    head, volume
+        (n,) heads of the nodes (m), and volumes of the joints at them (m3).
+    taken
+        Volume that came in since the start (m3), by the name of the prescribed head.
+    """
 
     time: float
     head: Floats
@@ -39,18 +49,18 @@ class WaterStored:
 
 @dataclass(frozen=True)
 class OpenJoints:
-    """Joints as wide as a state has them.
+    """Volumes and conductances of the joints in a state.
 
     Attributes
     ----------
     state
         The state.
     aperture
-        (j, 2) at their ends (m).
+        (j, 2) apertures at their ends (m).
     volume, store
-        (n,) of the joints at their nodes (m3), and what a metre of head compresses of it (m2).
+        (n,) volumes of the joints at their nodes (m3), and their storage by a unit of head (m2).
     flow
-        (n, n) ``G`` of the network (m2/s).
+        (n, n) conductance matrix ``G`` of the network (m2/s).
     """
 
     state: State
@@ -61,7 +71,7 @@ class OpenJoints:
 
 
 class JointStorage(JointWater):
-    """Transient water in the joints of a scene."""
+    """Transient flow in the joints of a scene."""
 
     name = "transient joint flow"
     _began: WaterStored
@@ -73,7 +83,7 @@ class JointStorage(JointWater):
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
-        """Build from ``[joint_flow]`` that is ``transient``."""
+        """Build from ``[joint_flow]`` with ``transient = true``."""
         table = setup.scene.joint_flow
         assert table is not None
         assert table.initial is not None
@@ -88,7 +98,7 @@ class JointStorage(JointWater):
 
     @property
     def steady(self) -> bool:
-        """See `Effect.steady`: what acts at the end of a step follows from its length."""
+        """See `Effect.steady`: the pressure at the end of a step depends on its duration."""
         return False
 
     def heads(self, state: State, time: float) -> Floats:
@@ -99,11 +109,11 @@ class JointStorage(JointWater):
         return self._end.head if time == self._end.time else self._at(state, time).head
 
     def force(self, state: State, end: Instant) -> Floats:
-        """Return the force of the pressure at the end of a step that moves no further."""
+        """Return the force (n_unknowns,) of the pressure at the end of a step without motion."""
         if end.time > state.time and state.time * self._second == self._end.time:
             self._began = self._end
         time = end.time * self._second
-        if time == self._began.time:  # what acts as the step begins, whose length stays
+        if time == self._began.time:  # the force at the start of the step, whose duration stays
             return super().force(state, end)
         self._step, self._time = step_between(self._began.time, time), time
         head = self._at(state, time).head
@@ -112,10 +122,10 @@ class JointStorage(JointWater):
         return self.sites.interface.spread(state, forces)
 
     def matrix(self, state: State) -> csc_array:
-        """Return how the force of the pressure falls with the step's motion (n, n)."""
+        """Return minus the derivative of the pressure's force by the motion (n, n)."""
         step, shape = self._step, (self.n_unknowns, self.n_unknowns)
         free = self._free(self._time)
-        # Suction does not act, and water that may not rise above its place takes none.
+        # There is no suction: only nodes under pressure respond.
         wet = free & (self._at(state, self._time).head > self.sites.places[:, 1])
         if not wet.any():
             return csc_array(shape)
@@ -130,13 +140,13 @@ class JointStorage(JointWater):
         return csc_array((even.ravel(), (row.ravel(), column.ravel())), shape=shape)
 
     def accepted(self, state: State) -> None:
-        """See `Effect.accepted`: the heads that go with the apertures that were found."""
+        """See `Effect.accepted`: solve for the heads with the apertures of the accepted state."""
         time = state.time * self._second
         if time > self._began.time:
             self._end = self._at(state, time)
 
     def history(self, state: State) -> Mapping[str, float]:
-        """Return the largest pressure (Pa) and aperture (m), and what held heads gave (m3)."""
+        """Return the largest pressure (Pa) and aperture (m), and inflows since the start (m3)."""
         pressure = float(self.pressures(state, state.time).max())
         taken = {f"taken:{name}": amount for name, amount in self._end.taken.items()}
         return {**taken, "pressure": pressure, "aperture": float(self.apertures(state).max())}
@@ -161,7 +171,7 @@ class JointStorage(JointWater):
         self._open = self._found = None
 
     def follow(self, change: Change) -> "JointStorage":
-        """Return the water on the new model: of nodes that stay where they were."""
+        """Return the water on the new model, with the heads of nodes that it shares."""
         from scipy.spatial import KDTree
 
         new = type(self).from_setup(change.setup)
@@ -174,7 +184,7 @@ class JointStorage(JointWater):
         return new
 
     def _at(self, state: State, time: float) -> WaterStored:
-        """Return the water at a time with the apertures of a state."""
+        """Return the water at a time with the apertures of a state; cached."""
         known = self._found
         if known is None or known[0] is not state or known[1] is not self._began:
             known = None
@@ -193,7 +203,7 @@ class JointStorage(JointWater):
         load = self._store(state) * began.head - (volume - began.volume)
         load = load - matrix[:, ~free] @ head[~free]
         head[free] = np.linalg.solve(matrix[np.ix_(free, free)], load[free])
-        # What holds a head gives what is missing there.
+        # The residual at prescribed heads is their inflow.
         missing = matrix @ head - (self._store(state) * began.head - (volume - began.volume))
         taken = {
             one.name: began.taken.get(one.name, 0.0) + float(missing[one.nodes].sum())
@@ -212,15 +222,15 @@ class JointStorage(JointWater):
         return np.asarray(np.diag(joints.store) + step * joints.flow)
 
     def _store(self, state: State) -> Floats:
-        """Volume (n,) that a metre of head compresses (m2); nodes of closed joints have a trace."""
+        """Storage (n,) by a unit of head (m2); positive at nodes of closed joints, too."""
         return self._opened(state).store
 
     def _volume(self, state: State) -> Floats:
-        """Volume (n,) of the joints at their nodes (m3), weighed as pressures are."""
+        """Volume (n,) of the joints at their nodes (m3), weighted as pressures are."""
         return self._opened(state).volume
 
     def _opened(self, state: State) -> OpenJoints:
-        """Return the joints of a state, made once for all that asks for it."""
+        """Return the joints of a state; cached."""
         if self._open is None or self._open.state is not state:
             self._open = self._opening(state)
         return self._open
@@ -239,7 +249,7 @@ class JointStorage(JointWater):
         return OpenJoints(state, aperture, volume, np.asarray(store), found)
 
     def _coupling(self, state: State, wet: Bools) -> Floats:
-        """Force (n_unknowns, k) of a unit of pressure at each wet node (N)."""
+        """Force (n_unknowns, k) of unit pressure at each wet node (m2)."""
         sites, n = self.sites, self.network.n
         piece = sites.interface.first.piece
         assert piece is not None

@@ -1,7 +1,7 @@
-"""Water in the joints of a scene: where it flows, how wide they are, and how it presses.
+"""Water in the joints of a scene: apertures, heads and pressures.
 
-Heads of `JointWater` are steady with the apertures at the start of a step, which statics corrects
-until nothing moves any more: a fixed point of apertures and heads.
+The heads of `JointWater` are those of steady flow with the apertures at the start of a step.
+Statics repeats steps until nothing moves any more: a fixed-point iteration on apertures and heads.
 """
 
 from collections.abc import Mapping
@@ -24,7 +24,7 @@ from nmm.water.wet_joints import NEAR, WetJoints
 
 @dataclass(frozen=True)
 class HeldHead:
-    """A head at nodes (k,) of the network, and its factor."""
+    """A prescribed head (k,) (m) at nodes (k,) of the network, and its factor."""
 
     name: str
     nodes: Ints
@@ -33,20 +33,20 @@ class HeldHead:
 
 
 class JointWater(Effect):
-    """Water in the joints of a scene.
+    """Base of the effects of water in joints.
 
     Parameters
     ----------
     sites, network
-        The joints.
+        The joints as places, and as a network.
     aperture, least
-        (j,) apertures as drawn and the least that closing leaves (m).
+        Initial and residual apertures (j,) (m).
     held
-        Heads that are given, later ones before earlier ones where both are.
+        Prescribed heads; later ones overwrite earlier ones.
     weight
-        Of water (N/m3).
+        Unit weight of water (N/m3).
     n_unknowns
-        Of the model.
+        Number of unknowns of the model.
     """
 
     external = False
@@ -61,11 +61,11 @@ class JointWater(Effect):
         n_unknowns: int,
     ) -> None:
         self.sites, self.network, self.held = sites, network, held
-        self._drawn, self._least = aperture
+        self._initial, self._residual = aperture
         self.weight, self.n_unknowns = weight, n_unknowns
         self._openings = KeptOfPlaces(sites.opening)
-        self._heads = KeptOfInstants(self._flowing)
-        self._pushed = KeptOfInstants(self._pushing)
+        self._heads = KeptOfInstants(self._steady_heads)
+        self._face_forces = KeptOfInstants(self._forces_of_pressure)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -73,8 +73,8 @@ class JointWater(Effect):
         scene, model = setup.scene, setup.model
         assert scene.joint_flow is not None
         joints = shared_edges(model)
-        drawn, least = _apertures(setup, joints.edge_a, joints.edge_b)
-        wet = ~np.isnan(drawn)
+        initial, residual = _apertures(setup, joints.edge_a, joints.edge_b)
+        wet = ~np.isnan(initial)
         if not wet.any():
             place = scene.source.place("joint_flow")
             expected = "blocks that share an edge, with an interface that has an aperture"
@@ -85,7 +85,7 @@ class JointWater(Effect):
         length = sites.joints.length
         network = JointNetwork(sites.nodes, length, len(sites.places), mobility)
         held = _held(setup, sites)
-        aperture, n_unknowns = (drawn[wet], least[wet]), model.manifold.n_unknowns
+        aperture, n_unknowns = (initial[wet], residual[wet]), model.manifold.n_unknowns
         return cls(sites, network, aperture, held, weight, n_unknowns)
 
     @property
@@ -101,13 +101,13 @@ class JointWater(Effect):
     def apertures(self, state: State) -> Floats:
         """Apertures (j, 2) at the ends of the joints (m)."""
         opening = self._openings.of(state)
-        return np.maximum(self._drawn[:, None] + opening, self._least[:, None])
+        return np.maximum(self._initial[:, None] + opening, self._residual[:, None])
 
     def heads(self, state: State, time: float) -> Floats:
-        """Heads (n,) of the nodes with the apertures of a state; nan where no joint is open."""
+        """Heads (n,) of the nodes with the apertures of a state (m); nan where no joint is open."""
         return self._heads.of(state, 0.0 if self.steady else time)
 
-    def _flowing(self, state: State, time: float) -> Floats:
+    def _steady_heads(self, state: State, time: float) -> Floats:
         nodes, given = self.given(time)
         conductance = self.network.conductance(self.apertures(state))
         try:
@@ -118,25 +118,25 @@ class JointWater(Effect):
             raise SolveError(f"joint flow: at ({x:.6g}, {y:.6g}): {fault}") from fault
 
     def pressures(self, state: State, time: float) -> Floats:
-        """Pressures (n,) at the nodes (Pa); zero above the water table and where none is open."""
+        """Pressures (n,) at the nodes (Pa); zero above the water table and at closed joints."""
         depth = np.nan_to_num(self.heads(state, time) - self.sites.places[:, 1])
         return np.asarray(self.weight * np.maximum(depth, 0.0))
 
     def force(self, state: State, end: Instant) -> Floats:
-        """Return the pressure on both faces of the joints, in the bodies' axes."""
+        """Return the load vector (n_unknowns,) of the pressure on both faces, in axes of bodies."""
         forces = self._forces(state, end.time)
         if not forces.any():
             return np.zeros(self.n_unknowns)
         return self.sites.interface.spread(state, forces)
 
     def work(self, before: State, after: State) -> float:
-        """Mean of the forces at both ends times the way the faces moved apart."""
+        """Work (J) of the mean of the forces at both ends on the relative motion of the faces."""
         forces, motion = self._forces, self.sites.interface.motion
         mean = (forces(before, before.time) + forces(after, after.time)) / 2
         return float(np.sum(mean * (motion(after) - motion(before)))) if mean.any() else 0.0
 
     def history(self, state: State) -> Mapping[str, float]:
-        """Return inflows (m3/s) at held heads, the largest pressure (Pa) and aperture (m)."""
+        """Return inflows (m3/s) at prescribed heads, the largest pressure (Pa) and aperture (m)."""
         heads, aperture = self.heads(state, state.time), self.apertures(state)
         inflow = self.network.inflow(self.network.conductance(aperture), heads)
         thick = self.sites.interface.area.sum() / self.sites.joints.length.sum()
@@ -145,16 +145,13 @@ class JointWater(Effect):
         return {**found, "pressure": pressure, "aperture": float(aperture.max())}
 
     def outputs(self, state: State) -> Mapping[str, Quantity]:
-        """Return pressures at the corners of blocks where joints end, zero elsewhere.
-
-        They are a column of their own: between its corners a block has none.
-        """
+        """Return pressures at the corners of blocks where joints end, zero at other vertices."""
         pressure = self.pressures(state, state.time)
         found = np.where(self.sites.corner >= 0, pressure[self.sites.corner], 0.0)
         return {"pressure": Quantity("points", found[:, None], "Pa", ("joints",))}
 
     def given(self, time: float) -> tuple[Ints, Floats]:
-        """Nodes (k,) with a head and what it is; later tables before earlier ones."""
+        """Nodes (k,) with a prescribed head, and the heads (k,) (m); later tables count."""
         heads = np.full(self.network.n, np.nan)
         for one in self.held:  # a handful
             heads[one.nodes] = one.factor(time) * one.head
@@ -163,14 +160,14 @@ class JointWater(Effect):
 
     def forget(self) -> None:
         """See `Effect.forget`."""
-        for kept in (self._openings, self._heads, self._pushed):
+        for kept in (self._openings, self._heads, self._face_forces):
             kept.forget()
 
     def _forces(self, state: State, time: float) -> Floats:
-        """Forces (m, 2) in N on the first sides of the joints."""
-        return self._pushed.of(state, 0.0 if self.steady else time)
+        """Forces (m, 2) on the first sides of the joints (N)."""
+        return self._face_forces.of(state, 0.0 if self.steady else time)
 
-    def _pushing(self, state: State, time: float) -> Floats:
+    def _forces_of_pressure(self, state: State, time: float) -> Floats:
         pressure = self.pressures(state, time)
         if not pressure.any():
             return np.zeros((len(self.sites.interface), 2))
@@ -178,13 +175,13 @@ class JointWater(Effect):
 
 
 def _apertures(setup: Setup, edge_a: Ints, edge_b: Ints) -> tuple[Floats, Floats]:
-    """Apertures (j,) as drawn and least ones (m); nan for joints that carry no water."""
+    """Initial and residual apertures (j,) (m); nan for joints without flow."""
     manifold, materials = setup.model.manifold, list(setup.scene.materials)
     one, other = (
         manifold.element_region[manifold.boundary.element[edge]] for edge in (edge_a, edge_b)
     )
     pairs = np.stack([setup.region_material[one], setup.region_material[other]], axis=1)
-    drawn, least = np.full(len(pairs), np.nan), np.zeros(len(pairs))
+    initial, residual = np.full(len(pairs), np.nan), np.zeros(len(pairs))
     for a, b in np.unique(pairs, axis=0).tolist():  # pairs of materials
         try:
             interface = setup.scene.interface(materials[a], materials[b])
@@ -192,8 +189,11 @@ def _apertures(setup: Setup, edge_a: Ints, edge_b: Ints) -> tuple[Floats, Floats
             continue
         chosen: Bools = (pairs == (a, b)).all(axis=1) & (one != other)
         if interface.aperture is not None:
-            drawn[chosen], least[chosen] = interface.aperture, interface.residual_aperture or 0.0
-    return drawn, least
+            initial[chosen], residual[chosen] = (
+                interface.aperture,
+                interface.residual_aperture or 0.0,
+            )
+    return initial, residual
 
 
 def _held(setup: Setup, sites: WetJoints) -> list[HeldHead]:
@@ -212,7 +212,7 @@ def _held(setup: Setup, sites: WetJoints) -> list[HeldHead]:
 
 
 def _distance(points: Floats, ends: Floats) -> Floats:
-    """Distance (m,) of points from a segment (2, 2), which may be a point."""
+    """Distance (m,) of points (m, 2) from a segment (2, 2), which may be a point."""
     way = ends[1] - ends[0]
     size = float(way @ way)
     share = np.clip((points - ends[0]) @ way / size, 0, 1) if size else np.zeros(len(points))

@@ -1,15 +1,15 @@
-"""A free surface that rises and falls: pores fill and drain as water flows (Boussinesq 1904).
+"""Transient seepage with a free surface: pores fill and drain (Boussinesq 1904).
 
-With the drainable porosity ``n`` ground holds ``n s`` of water in a unit of volume, ``s`` the share
-of filled pores of `nmm.water.free_surface`, besides what it holds by being squeezed. A step from
-``h0`` to ``h1`` is
+With the drainable porosity ``n``, a unit volume of ground holds the water ``n s``, where ``s`` is
+the saturation of `nmm.water.free_surface`, besides its specific storage. A step from ``h0`` to
+``h1`` is
 
     M (h1 - h0) + W(h1) - W(h0) + dt (K h1 - f - int k (1 - s) dphi / dy) = 0,
     W = int n s phi,
 
-whose tangent is that of the steady surface with ``int n s' phi phi`` more. What is missing below
-the surface, half of the width ``l``, moves along with it: the volume that a rise takes is right
-whatever ``l`` is.
+whose tangent is that of steady seepage plus ``int n s' phi phi``. The water that is missing below
+the surface, half of the width ``l``, moves along with it, so that the volume of a rise is right for
+any ``l``.
 """
 
 from dataclasses import dataclass, fields
@@ -21,24 +21,24 @@ from scipy.sparse import csc_array, csr_array, diags_array
 from integration.arrays import Floats
 from nmm.diffusion.problem import step_between
 from nmm.errors import SolveError
-from nmm.water.free_surface import WIDTHS, FreeSurface, Unbalanced
+from nmm.water.free_surface import WIDTHS, FlowResidual, FreeSurface
 
 
 @dataclass(frozen=True, kw_only=True)
 class MovingSurface(FreeSurface):
-    """The head of ground that fills and drains.
+    """The hydraulic head of ground that fills and drains.
 
     Attributes
     ----------
     room
-        (n, Q) values of the functions times drainable volume (m3) at the points of the filling.
+        (n, Q) values of the functions times drainable volume (m3) at the quadrature points.
     """
 
     room: csr_array
 
     @classmethod
     def draining(cls, surface: FreeSurface, drainable: Floats) -> Self:
-        """Return a problem whose elements drain volumes (E,) (m3) when they are emptied."""
+        """Return the problem with drainable volumes (E,) of the elements (m3)."""
         parts = {one.name: getattr(surface, one.name) for one in fields(FreeSurface)}
         filling = surface.filling
         volume = drainable[filling.owner] * filling.share
@@ -50,12 +50,12 @@ class MovingSurface(FreeSurface):
     ) -> Floats:
         """See `DiffusionProblem.stepped`; ``theta`` is 1.
 
-        Where no head is found from that before, it is followed through surfaces that are wider.
+        If Newton's method fails from the last head, the width of the surface is reduced in steps.
 
         Raises
         ------
         SolveError
-            Where none is found so either.
+            That fails, too.
         """
         found = before.copy()
         found[~self.free] = self.held(end)[~self.free]
@@ -69,13 +69,13 @@ class MovingSurface(FreeSurface):
     def _filled(
         self, near: Floats, before: Floats, begin: float, end: float, wider: float
     ) -> Floats:
-        """Return the head (n,) after a step with widths so much wider, from one nearby."""
+        """Return the head (n,) after a step with widths times ``wider``, from a nearby one."""
         assert self.capacity is not None
         step, load, capacity = step_between(begin, end), self.load(end), self.capacity
         had = capacity @ before + self._content(before, wider)
         through = csc_array(capacity + step * self.matrix)
 
-        def missing(head: Floats) -> Floats:
+        def residual_of(head: Floats) -> Floats:
             gained = capacity @ head + self._content(head, wider) - had
             flow = load + self.filling.load(head, wider) - self.matrix @ head
             return np.asarray(step * flow - gained)
@@ -86,10 +86,10 @@ class MovingSurface(FreeSurface):
 
         flows = load + self.filling.load(before, wider)
         size = float(np.linalg.norm(step * flows) + np.linalg.norm(had))
-        return self._balanced(near, Unbalanced(missing, tangent, size))
+        return self._balanced(near, FlowResidual(residual_of, tangent, size))
 
     def stored(self, unknowns: Floats) -> float:
-        """See `DiffusionProblem.stored`: what fills pores as well."""
+        """See `DiffusionProblem.stored`; with the water in drainable pores."""
         return super().stored(unknowns) + self.total(self._content(unknowns, 1.0))
 
     def _content(self, head: Floats, wider: float) -> Floats:

@@ -1,8 +1,8 @@
 """Flow in a network of joints by the cubic law (Snow 1965; Witherspoon and others 1980).
 
-Through a joint of aperture ``w`` and length ``L`` flows ``q = w^3 g / (12 mu) dh / L``, ``g`` the
-weight of water and ``mu`` its viscosity. Where the aperture goes linearly from ``w1`` to ``w2`` the
-same flow has ``w^3 = 2 w1^2 w2^2 / (w1 + w2)``, exactly.
+The flow through a joint of aperture ``w`` and length ``L`` is ``q = w^3 g / (12 mu) dh / L``, with
+the unit weight ``g`` of water and its viscosity ``mu``. For an aperture that is linear from ``w1``
+to ``w2``, the flow is exactly that with ``w^3 = 2 w1^2 w2^2 / (w1 + w2)``.
 """
 
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ from nmm.water.elimination import heads_of
 
 @dataclass(frozen=True)
 class JointNetwork:
-    """Joints between nodes.
+    """A network of joints between nodes.
 
     Attributes
     ----------
@@ -27,7 +27,7 @@ class JointNetwork:
     n
         Number of nodes.
     mobility
-        ``g / (12 mu)`` in 1/(m s): weight of water over twelve times its viscosity.
+        ``g / (12 mu)``: unit weight of water over twelve times its viscosity (1/(m s)).
     """
 
     ends: Ints
@@ -36,21 +36,21 @@ class JointNetwork:
     mobility: float = 9810.0 / 12e-3
 
     def conductance(self, aperture: Floats) -> Floats:
-        """Flow (j,) for each metre of head (m/s) of joints of apertures (j, 2) at their ends."""
+        """Conductance (j,) of joints: flow over head, for apertures (j, 2) at their ends (m/s)."""
         one, other = aperture.T
         both = one + other
         cubed = 2 * one**2 * other**2 / np.where(both > 0, both, 1.0)
         return np.asarray(self.mobility * cubed / self.length)
 
     def heads(self, conductance: Floats, fixed: Ints, given: Floats) -> Floats:
-        """Steady heads (n,) with those of the nodes ``fixed`` (k,) given (k,).
+        """Return the steady heads (n,) with heads ``given`` (k,) at nodes ``fixed`` (k,) (m).
 
-        Nodes to which no joint is open have nan.
+        Nodes without an open joint have nan.
 
         Raises
         ------
         SolveError
-            A part of open joints that no given head reaches.
+            A part of the open joints is connected to no given head.
         """
         heads = np.full(self.n, np.nan)
         heads[fixed] = given
@@ -62,7 +62,7 @@ class JointNetwork:
         _refuse(self.isolated(conductance, fixed))
         number = np.full(self.n, -1)
         number[sought] = np.arange(len(sought))
-        # Heads are counted from the least one, so that all that is summed is positive.
+        # Heads are counted from the lowest, so that all terms are positive.
         low = float(np.min(given, initial=np.inf))
         ground, driven = np.zeros(len(sought)), np.zeros(len(sought))
         a, b = self.ends.T
@@ -81,13 +81,13 @@ class JointNetwork:
         return np.where(conductance > 0, conductance * np.nan_to_num(drop), 0.0)
 
     def inflow(self, conductance: Floats, heads: Floats) -> Floats:
-        """What flows into the network at each node (n,), m2/s: nothing but at given heads."""
+        """Inflow (n,) into the network at each node (m2/s): zero but at given heads."""
         flow = self.flows(conductance, heads)
         first = np.bincount(self.ends[:, 0], flow, minlength=self.n)
         return np.asarray(first - np.bincount(self.ends[:, 1], flow, minlength=self.n))
 
     def isolated(self, conductance: Floats, fixed: Ints) -> Bools:
-        """Which nodes (n,) have open joints and none that leads to a given head."""
+        """Which nodes (n,) have open joints, but no connection to a given head."""
         part = self._parts(conductance)
         reached = np.zeros(part.max(initial=-1) + 1, dtype=bool)
         reached[part[fixed]] = True
@@ -100,17 +100,17 @@ class JointNetwork:
         return wet
 
     def _parts(self, conductance: Floats) -> Ints:
-        """Part (n,) of each node, connected by open joints."""
+        """Number (n,) of the part of each node, connected by open joints."""
         a, b = self.ends[conductance > 0].T
         graph = coo_array((np.ones(len(a)), (a, b)), shape=(self.n, self.n))
         return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)
 
 
-def _refuse(loose: Bools) -> None:
-    """Refuse nodes (n,) that no given head reaches."""
-    if loose.any():
+def _refuse(isolated: Bools) -> None:
+    """Raise where nodes (n,) are connected to no given head."""
+    if isolated.any():
         raise SolveError(
-            f"joints at {int(loose.sum())} nodes, node {int(np.flatnonzero(loose)[0])} first, "
+            f"joints at {int(isolated.sum())} nodes, node {int(isolated.argmax())} first, "
             "are open to one another and to no given head: expected a head in every part: give "
             "one there, or an aperture to what leads to it",
             singular=True,

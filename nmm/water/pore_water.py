@@ -1,9 +1,15 @@
-"""Water in the pores of blocks, and its pressure in effective stress.
+"""Flow of water in the pores of blocks, and the effective stress.
 
 With Darcy's law the head ``h`` obeys ``S dh/dt = div (k grad h)``; the pressure of the pores
 ``p = w (h - y)``, ``w`` the weight of water, takes ``b p`` from the total normal stresses
 (Terzaghi 1936; Biot 1941 for ``b``), and a share of it in plane stress
 (`nmm.materials.base.Law.pore_share`). What pores gain by strain `nmm.water.consolidation` adds.
+=======
+By Darcy's law the hydraulic head ``h`` satisfies ``S dh/dt = div (k grad h)``. The pore pressure
+``p = w (h - y)``, with the unit weight ``w`` of water, subtracts ``b p`` from the effective normal
+stresses (Terzaghi 1936; Biot 1941 for ``b``). `nmm.water.consolidation` adds the coupling to
+strain.
+>>>>>>> f294aa6f (Water in the field's words: saturation, consolidation, conductance, follower pressure)
 """
 
 from collections.abc import Mapping
@@ -42,7 +48,21 @@ LOOSE = ("seepage", "head", "add [[heads]], or transient = true")
 
 
 class PoreWater(FieldEffect):
-    """Head of the water in the pores; ``ground`` (n,) are the unknowns of the height y itself."""
+    """Base of the effects of pore water.
+
+    Parameters
+    ----------
+    course, stress, conductivity, second
+        See `FieldEffect`.
+    ground
+        (n,) unknowns of the elevation y (m).
+    weight
+        Unit weight of water (N/m3).
+    filling
+        Saturation with a free surface; None without.
+    finite
+        Whether strain is finite.
+    """
 
     _turned: "PoreStress | None" = None
 
@@ -55,11 +75,11 @@ class PoreWater(FieldEffect):
         weight: float,
         second: float = 1.0,
         filling: "Filling | None" = None,
-        bends: bool = False,
+        finite: bool = False,
     ) -> None:
         super().__init__(course, stress, conductivity, second)
         self._ground, self._weight, self._filling = ground, weight, filling
-        if bends:
+        if finite:
             from nmm.assembly.finite_strain.finite_matter import finite_matter
             from nmm.water.pore_stress import PoreStress
 
@@ -85,12 +105,12 @@ class PoreWater(FieldEffect):
         course = course_of(setup, problem, initial, second)
         conductivity = of_elements(setup, "hydraulic_conductivity")
         weight = table.unit_weight
-        bends = _bends(setup)
-        return cls(course, stress, conductivity, ground, weight, second, filling, bends)
+        finite = _finite(setup)
+        return cls(course, stress, conductivity, ground, weight, second, filling, finite)
 
     @property
     def turns_with_bodies(self) -> str:
-        """See `Effect.turns_with_bodies`: the pressure follows the material in plane strain."""
+        """See `Effect.turns_with_bodies`: empty in plane strain, where the stress is that of F."""
         return "" if self._turned is not None else super().turns_with_bodies
 
     def acting(self, time: float) -> Floats:
@@ -102,14 +122,14 @@ class PoreWater(FieldEffect):
         return np.asarray(self.space.values(elements, points) @ self.acting(time))
 
     def work(self, before: State, after: State) -> float:
-        """Work (J) of the pressure on the strain of the blocks, by the mean of both ends."""
+        """Work (J) of the mean pressure of both ends on the strain."""
         if self._turned is not None:
             return self._turned.work(before, after)
         ends = (self.force(one, Instant.of(one)) for one in (before, after))
         return float(sum(ends) @ (after.deformation - before.deformation)) / 2
 
     def outputs(self, state: State) -> Mapping[str, Quantity]:
-        """Return pressure at the vertices, and the mean velocity of seepage in elements."""
+        """Return pressure at vertices, mean velocity of elements, and saturation if unconfined."""
         pressure = self.space.vertices @ self.acting(state.time)
         found = {
             "pressure": Quantity("points", pressure, "Pa"),
@@ -121,7 +141,7 @@ class PoreWater(FieldEffect):
         return found
 
     def flux(self, state: State) -> Floats:
-        """Mean velocity (E, 2) of the elements in global axes: none where pores are empty."""
+        """Mean seepage velocity (E, 2) in global axes, zero where unsaturated (m/s)."""
         found = super().flux(state)
         if self._filling is None:
             return found
@@ -130,19 +150,187 @@ class PoreWater(FieldEffect):
         return found + state.frames.to_global(self.space.manifold.element_body, fall)
 
     def history(self, state: State) -> Mapping[str, float]:
-        """Return extreme pressures (Pa), and water taken up: m3 since the start, or m3/s."""
+        """Return extreme pressures (Pa), and the inflow: m3 since the start, or m3/s if steady."""
         values = self.space.vertices @ self.acting(state.time)
         extremes = {"lowest": float(values.min()), "highest": float(values.max())}
         return {**extremes, **self.amounts(state)}
 
 
 def _pore_stress(setup: Setup) -> Floats:
-    """Return the stress (E, 3) that a unit of pressure takes.
+    """Return the stress (E, 3) that a unit of pore pressure subtracts.
 
     Raises
     ------
     SceneError
-        Matter in plane stress that is not linear: its laws know of no stress across.
+        A nonlinear law in plane stress, which has no out-of-plane stress.
+    """
+    model, biot = setup.model, of_elements(setup, "biot", missing=1.0)
+    for name, law in zip(setup.scene.materials, model.laws, strict=True):  # a handful of materials
+        pressed = setup.scene.materials[name].biot != 0
+        if model.plane == "stress" and pressed and not law.linear:
+            place = setup.scene.source.place("materials", name, "law")
+            value = f'"{setup.scene.materials[name].law}" with [seepage] in plane stress'
+            remedy = 'use plane = "strain", or an elastic law'
+            raise SceneError(Fault(place, value, "matter that is linear", remedy))
+    shares = np.array([law.pore_share(model.plane) for law in model.laws])
+    return np.asarray(biot[:, None] * shares[model.law])
+
+
+def _finite(setup: Setup) -> bool:
+    """Whether the pore pressure acts in finite strain: in plane strain, coupled one way.
+"""
+
+from collections.abc import Mapping
+from functools import partial
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from covers.scalar.space import ScalarSpace
+from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.motion import State
+from nmm.assembly.places import Place
+from nmm.diffusion.course import FieldCourse
+from nmm.diffusion.field_effect import FieldEffect, course_of
+from nmm.diffusion.field_stress import FieldStress
+from nmm.diffusion.from_scene import (
+    FieldTables,
+    GivenTable,
+    Values,
+    field_problem,
+    fitted,
+    of_elements,
+    sloping,
+)
+from nmm.diffusion.problem import DiffusionProblem
+from nmm.effects.base import Instant, Setup
+from nmm.errors import Fault, FormulationError, SceneError
+from nmm.quantity import Quantity
+
+if TYPE_CHECKING:
+    from nmm.scene.tables.seepage import HeadTable
+    from nmm.water.free_surface import Filling, FreeSurface
+    from nmm.water.pore_stress import PoreStress
+
+LOOSE = ("seepage", "head", "add [[heads]], or transient = true")
+
+
+class PoreWater(FieldEffect):
+    """Base of the effects of pore water.
+
+    Parameters
+    ----------
+    course, stress, conductivity, second
+        See `FieldEffect`.
+    ground
+        (n,) unknowns of the elevation y (m).
+    weight
+        Unit weight of water (N/m3).
+    filling
+        Saturation with a free surface; None without.
+    finite
+        Whether strain is finite.
+    """
+
+    _turned: "PoreStress | None" = None
+
+    def __init__(
+        self,
+        course: FieldCourse,
+        stress: FieldStress,
+        conductivity: Floats,
+        ground: Floats,
+        weight: float,
+        second: float = 1.0,
+        filling: "Filling | None" = None,
+        finite: bool = False,
+    ) -> None:
+        super().__init__(course, stress, conductivity, second)
+        self._ground, self._weight, self._filling = ground, weight, filling
+        if finite:
+            from nmm.assembly.finite_strain.finite_matter import finite_matter
+            from nmm.water.pore_stress import PoreStress
+
+            self._turned = PoreStress(finite_matter(stress.model), self.stress_at)
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from ``[seepage]``, ``[[heads]]`` and ``[[inflows]]``."""
+        table = setup.scene.seepage
+        assert table is not None
+        space = ScalarSpace.of(setup.model.manifold)
+        filling = _filling(setup, space) if table.free_surface else None
+        problem, initial = _problem(setup, space, filling), None
+        everything: Bools = np.ones(space.n, dtype=bool)
+        second = 1.0 if table.duration is None else table.duration
+        if table.initial is not None:
+            level = table.initial - setup.origin[1]
+            initial = level * space.one
+            if filling is not None:
+                initial = fitted(setup, space, everything, partial(filling.at_rest, level))
+        ground = fitted(setup, space, everything, lambda points: points[:, 1])
+        stress = FieldStress(space, setup.model, _pore_stress(setup))
+        course = course_of(setup, problem, initial, second)
+        conductivity = of_elements(setup, "hydraulic_conductivity")
+        weight = table.unit_weight
+        finite = _finite(setup)
+        return cls(course, stress, conductivity, ground, weight, second, filling, finite)
+
+    @property
+    def turns_with_bodies(self) -> str:
+        """See `Effect.turns_with_bodies`: empty in plane strain, where the stress is that of F."""
+        return "" if self._turned is not None else super().turns_with_bodies
+
+    def acting(self, time: float) -> Floats:
+        """Unknowns (n,) of the pressure (Pa)."""
+        return self._weight * (self.here(time).unknowns - self._ground)
+
+    def pore_pressure_at(self, elements: Ints, points: Floats, time: float) -> Floats:
+        """See `Effect.pore_pressure_at`."""
+        return np.asarray(self.space.values(elements, points) @ self.acting(time))
+
+    def work(self, before: State, after: State) -> float:
+        """Work (J) of the mean pressure of both ends on the strain."""
+        if self._turned is not None:
+            return self._turned.work(before, after)
+        ends = (self.force(one, Instant.of(one)) for one in (before, after))
+        return float(sum(ends) @ (after.deformation - before.deformation)) / 2
+
+    def outputs(self, state: State) -> Mapping[str, Quantity]:
+        """Return pressure at vertices, mean velocity of elements, and saturation if unconfined."""
+        pressure = self.space.vertices @ self.acting(state.time)
+        found = {
+            "pressure": Quantity("points", pressure, "Pa"),
+            "velocity": Quantity("elements", self.flux(state), "m/s"),
+        }
+        if self._filling is not None:
+            filled = self._filling.means(self.here(state.time).unknowns)
+            found["filled"] = Quantity("elements", filled, "1")
+        return found
+
+    def flux(self, state: State) -> Floats:
+        """Mean seepage velocity (E, 2) in global axes, zero where unsaturated (m/s)."""
+        found = super().flux(state)
+        if self._filling is None:
+            return found
+        empty = 1 - self._filling.means(self.here(state.time).unknowns)
+        fall = np.stack([np.zeros_like(empty), self._conductivity * empty], axis=1)
+        return found + state.frames.to_global(self.space.manifold.element_body, fall)
+
+    def history(self, state: State) -> Mapping[str, float]:
+        """Return extreme pressures (Pa), and the inflow: m3 since the start, or m3/s if steady."""
+        values = self.space.vertices @ self.acting(state.time)
+        extremes = {"lowest": float(values.min()), "highest": float(values.max())}
+        return {**extremes, **self.amounts(state)}
+
+
+def _pore_stress(setup: Setup) -> Floats:
+    """Return the stress (E, 3) that a unit of pore pressure subtracts.
+
+    Raises
+    ------
+    SceneError
+        A nonlinear law in plane stress, which has no out-of-plane stress.
     """
     model, biot = setup.model, of_elements(setup, "biot", missing=1.0)
     for name, law in zip(setup.scene.materials, model.laws, strict=True):  # a handful of materials
@@ -158,8 +346,12 @@ def _pore_stress(setup: Setup) -> Floats:
 
 def _bends(setup: Setup) -> bool:
     """Whether bodies bend by any angle and water in them knows how: in plane strain, one way.
+=======
+def _finite(setup: Setup) -> bool:
+    """Whether the pore pressure acts in finite strain: in plane strain, coupled one way.
+>>>>>>> f294aa6f (Water in the field's words: saturation, consolidation, conductance, follower pressure)
 
-    In plane stress the pores would have to know how thick the plate has become.
+    In plane stress it would depend on the deformed thickness.
     """
     table = setup.scene.seepage
     assert table is not None
@@ -167,12 +359,12 @@ def _bends(setup: Setup) -> bool:
 
 
 def _filling(setup: Setup, space: ScalarSpace) -> "Filling":
-    """Return how far pores are filled.
+    """Return the saturation.
 
     Raises
     ------
     SceneError
-        A head that changes in time: where its edge is open to the air would, too.
+        A prescribed head changes in time, and with it the part of its edge open to the air.
     """
     from nmm.water.free_surface import Filling
 
@@ -188,7 +380,7 @@ def _filling(setup: Setup, space: ScalarSpace) -> "Filling":
 def _held(
     setup: Setup, one: "HeadTable", filling: "Filling | None", conductivity: Floats
 ) -> GivenTable:
-    """Return a head that is held; above the water it is that of the air, and no water falls in."""
+    """Return a prescribed head; with a free surface the pressure is zero above the water."""
     level: Values = partial(sloping, one, one.head - float(setup.origin[1]))
     if filling is None:
         return GivenTable("heads", one, level)
@@ -208,7 +400,7 @@ def _held(
 def _problem(
     setup: Setup, space: ScalarSpace, filling: "Filling | None" = None
 ) -> DiffusionProblem:
-    """Return the equations of the head, counted from the height of the model's axes."""
+    """Return the problem of the head, counted from the origin of the model's axes."""
     scene = setup.scene
     assert scene.seepage is not None
     stored = of_elements(setup, "specific_storage") if scene.seepage.transient else None
@@ -236,12 +428,12 @@ def _problem(
 
 
 def _moving(setup: Setup, surface: "FreeSurface") -> DiffusionProblem:
-    """Return a surface that rises and falls.
+    """Return the problem of a moving free surface.
 
     Raises
     ------
     FormulationError
-        Steps that take flows at their start: pores that are empty there say nothing of them.
+        The time integration is not implicit: unsaturated pores have no defined flow at its start.
     """
     from nmm.water.moving_surface import MovingSurface
 

@@ -1,8 +1,8 @@
-"""The effect: water that presses on edges, on both faces of joints and cracks, around blocks.
+"""The effect: given water pressures on edges, on faces of joints and cracks, or around blocks.
 
-Its pressure is that of the place where the material was laid, and acts along the normal of the edge
-there; both turn with the body, so that the force is constant in the body's axes. Edges are divided
-where the pressure has a kink, at the water table, and integrated exactly.
+Pressure and normal are those of the reference configuration and turn with the body, so that the
+force is constant in its axes. Edges are divided where the pressure has a kink, at the water table,
+and integrated exactly.
 """
 
 from collections.abc import Callable, Mapping
@@ -26,30 +26,30 @@ if TYPE_CHECKING:
     from nmm.effects.loading.surface_pressure import PressedSurfaces, SurfacePressure
     from nmm.scene.tables.water import WaterPressureTable
 
-# Parts of an edge shorter than this share of it are rounding.
+# Parts shorter than this share of an edge are rounding.
 SHORT = 1e-12
 
 
 @dataclass(frozen=True)
 class WaterOnEdges:
-    """Water on points of edges.
+    """Water pressure on quadrature points of edges.
 
     Attributes
     ----------
     name
-        As the scene calls it.
+        Name in the scene.
     place
         Gauss points.
     force
-        (m, 2) on each point at factor 1, in the axes of its body (N).
+        (m, 2) force on each point at factor 1, in the axes of its body (N).
     unknown
-        (n,) the same on the unknowns.
+        (n,) load vector at factor 1.
     factor
-        From the instant to the factor.
+        Load factor as a function of the instant.
     steady
-        Whether it has no history.
+        Whether it is constant in time.
     surface
-        That presses where bodies bend by any angle, turns and stretches; None where axes turn.
+        Follower pressure in finite strain; else None.
     """
 
     name: str
@@ -69,7 +69,7 @@ class WaterOnEdges:
 
 
 class WaterPressures(Effect):
-    """All water pressures that a scene gives."""
+    """All given water pressures of a scene."""
 
     name = "water pressures"
 
@@ -92,7 +92,7 @@ class WaterPressures(Effect):
 
     @property
     def nonlinear(self) -> bool:
-        """See `Effect.nonlinear`: it does on bodies that bend by any angle."""
+        """See `Effect.nonlinear`: true in finite strain."""
         return self._surfaces is not None
 
     @property
@@ -106,13 +106,13 @@ class WaterPressures(Effect):
         return self._surfaces.step_force(before, after, span)
 
     def applied_forces(self, state: State) -> AppliedForces:
-        """See `Effect.applied_forces`: those of water in cracks."""
+        """See `Effect.applied_forces`: those on crack faces."""
         now = Instant.of(state)
         pairs = ((one.place, one.forces(state, now)) for one in self.given)
         return joined(AppliedForces.on(self._model, place, force) for place, force in pairs)
 
     def force(self, state: State, end: Instant) -> Floats:
-        """Return the pressures in the bodies' axes."""
+        """Return the load vector (n,) in the axes of the bodies."""
         if self._surfaces is not None:
             return self._surfaces.force(state, end)
         total = np.zeros(self._n)
@@ -121,7 +121,7 @@ class WaterPressures(Effect):
         return total
 
     def work(self, before: State, after: State) -> float:
-        """Mean of the forces at both ends of the step times the motion of their points."""
+        """Work (J) of the mean of the forces at both ends of the step."""
         total = 0.0
         for one in self.given:  # a handful
             first, last = (one.forces(state, Instant.of(state)) for state in (before, after))
@@ -129,7 +129,7 @@ class WaterPressures(Effect):
         return total
 
     def history(self, state: State) -> Mapping[str, float]:
-        """Return the resultant (N) of each on all that it presses on."""
+        """Return the resultant of each (N)."""
         now, found = Instant.of(state), {}
         for one in self.given:  # a handful
             total = one.forces(state, now).sum(axis=0)
@@ -144,8 +144,8 @@ def _water(setup: Setup, item: "WaterPressureTable") -> WaterOnEdges:
         where = setup.scene.source.of_name("water_pressures", item.name)
         found = str(item.segment or item.crack or item.block)
         raise SceneError(Fault(where, found, "an edge of a block", "move it onto one"))
-    bends = setup.kinematics.finite
-    order = 2 * max(manifold.degree, 1) + 3 if bends else manifold.degree + 1
+    finite = setup.kinematics.finite
+    order = 2 * max(manifold.degree, 1) + 3 if finite else manifold.degree + 1
     place = on_parts(manifold, edge, start, end, order)
     assert place.normal is not None
     there = pressure.pressure(place.position)
@@ -155,11 +155,11 @@ def _water(setup: Setup, item: "WaterPressureTable") -> WaterOnEdges:
     factor = load_factor(setup, item)
     steady = item.history is None
     water = WaterOnEdges(item.name, place, force, unknown, factor, steady)
-    return replace(water, surface=_surface(setup, water, there)) if bends else water
+    return replace(water, surface=_surface(setup, water, there)) if finite else water
 
 
 def _surface(setup: Setup, water: WaterOnEdges, pressure: Floats) -> "SurfacePressure":
-    """Return a pressure (m,) at the points of edges that turn and stretch with their body."""
+    """Return the follower pressure of pressures (m,) (Pa) at the points of edges."""
     from nmm.effects.loading.surface_pressure import SurfacePressure, along_surface
 
     slopes = along_surface(water.place)
@@ -175,7 +175,7 @@ def _pressed(surfaces: "list[SurfacePressure]", n: int) -> "PressedSurfaces":
 
 
 def _edges(setup: Setup, item: "WaterPressureTable") -> tuple[Ints, Floats, Floats]:
-    """Edges that water presses on, and starts and ends (k, 2) of their wet parts."""
+    """Edges (k,) under pressure, and starts and ends (k, 2) of the parts of them."""
     manifold, regions = setup.model.manifold, setup.regions(item.block)
     if item.segment is not None:
         return along_segment(manifold, np.array(item.segment), regions)
@@ -201,7 +201,7 @@ def _faces(setup: Setup, name: str) -> Bools:
 def _divided(
     edge: Ints, start: Floats, end: Floats, pressure: Pressure
 ) -> tuple[Ints, Floats, Floats]:
-    """Return parts on which the pressure is linear."""
+    """Divide parts of edges where the pressure has a kink."""
     shares = [pressure.crossings(a, b) for a, b in zip(start, end, strict=True)]
     whole = np.repeat(np.arange(len(edge)), [len(one) - 1 for one in shares])
     low = np.concatenate([[], *(one[:-1] for one in shares)])

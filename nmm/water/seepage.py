@@ -1,9 +1,9 @@
-"""The effect: water that seeps through blocks, one way: what pores gain by strain is left out."""
+"""The effect: seepage through blocks, coupled one way: strain does not change the head."""
 
 from nmm.water.pore_water import PoreWater
 
 
 class Seepage(PoreWater):
-    """Head of the water in pores whose room stays as it is."""
+    """Hydraulic head in pores of constant volume."""
 
     name = "seepage"

@@ -1,4 +1,4 @@
-"""Joints of a scene as a network: where they meet, how wide they are open, what presses on them."""
+"""Joints that carry water: their nodes, openings, and the forces of pressure on their faces."""
 
 from dataclasses import dataclass
 from typing import Self
@@ -14,7 +14,7 @@ from nmm.constraints.interface import Interface
 from nmm.constraints.shared_edges import gauss_interface
 from nmm.contact.detection.joints import Joints
 
-# Ends of joints nearer than this share of the domain are one node.
+# Ends of joints nearer to each other than this share of the size of the domain are one node.
 NEAR = 1e-9
 
 
@@ -25,17 +25,17 @@ class WetJoints:
     Attributes
     ----------
     joints
-        Edges that blocks share, in the reference place.
+        Edges that blocks share, in the reference configuration.
     nodes, places
-        (j, 2) nodes of their ends, and where the nodes are (n, 2) in m.
+        (j, 2) nodes of their ends, and places (n, 2) of the nodes (m).
     sides
-        The ends (2 j) on either side as points of the material, both ends of a joint in turn.
+        The ends (2 j) on either side as material points, both ends of a joint one after the other.
     interface
         Gauss points of the joints.
     share
-        (m,) how far along its joint each Gauss point lies, from 0 to 1.
+        (m,) place of each Gauss point along its joint, from 0 to 1.
     corner
-        (P,) node at each vertex of the elements, -1 for none.
+        (P,) node at each vertex of the elements; -1 for none.
     """
 
     joints: Joints
@@ -48,7 +48,7 @@ class WetJoints:
 
     @classmethod
     def of(cls, model: Model, joints: Joints) -> Self:
-        """Lay the points of joints of a model."""
+        """Return the joints of a model with their points."""
         manifold = model.manifold
         ends = np.stack([joints.start, joints.end], axis=1).reshape(-1, 2)
         size = float(np.hypot(*np.ptp(manifold.elements.points, axis=0)))
@@ -66,7 +66,7 @@ class WetJoints:
         return cls(joints, nodes.reshape(-1, 2), places, (a, b), interface, share, corner)
 
     def opening(self, state: State) -> Floats:
-        """How far joints have opened (j, 2) at their ends since the reference place (m)."""
+        """Opening (j, 2) of the joints at their ends since the reference configuration (m)."""
         one, other = (side.moved(state.frames, state.deformation) for side in self.sides)
         normal = np.repeat(self.joints.normal, 2, axis=0)
         angle = np.mean([state.frames.angle[side.body] for side in self.sides], axis=0)
@@ -74,7 +74,7 @@ class WetJoints:
         return np.asarray(np.sum((one - other) * turned, axis=1).reshape(-1, 2))
 
     def forces(self, state: State, pressure: Floats) -> Floats:
-        """Forces (m, 2) in N on the first side of pressures (j, 2) at the ends (Pa)."""
+        """Forces (m, 2) (N) on the first side of pressures (j, 2) at the ends (Pa)."""
         piece = self.interface.first.piece
         assert piece is not None
         low, high = pressure[piece].T
@@ -84,7 +84,7 @@ class WetJoints:
 
 
 def _merged(points: Floats, near: float) -> tuple[Ints, Floats]:
-    """Number (m,) of each point among those that differ, and their places (n, 2)."""
+    """Number (m,) of each point among distinct ones, and the places (n, 2) of these."""
     from scipy.spatial import KDTree
 
     pairs = KDTree(points).query_pairs(near, output_type="ndarray")
@@ -94,7 +94,7 @@ def _merged(points: Floats, near: float) -> tuple[Ints, Floats]:
 
 
 def _at(places: Floats, points: Floats, near: float) -> Ints:
-    """Number (m,) of the place at each point, -1 for none."""
+    """Number (m,) of the place at each point; -1 for none."""
     from scipy.spatial import KDTree
 
     away, nearest = KDTree(places).query(points)
