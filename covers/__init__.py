@@ -1,4 +1,4 @@
-"""Mathematical covers, physical covers, local functions: what approximates, not what it means.
+"""Mathematical covers, physical covers, local functions: the approximation of displacements.
 
 Imports `integration`; knows no mechanics.
 """

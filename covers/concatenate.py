@@ -1,4 +1,4 @@
-"""Records of arrays one after the other: fields say what their numbers count, and are raised."""
+"""Concatenation of records of arrays; fields that hold numbers of things are offset."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass, replace
@@ -13,11 +13,11 @@ Record = TypeVar("Record")
 
 
 SHARED = {"of": "shared"}
-"""Metadata of the field of an array that is alike in all parts."""
+"""Metadata of the field of an array that is the same in all parts."""
 
 
 def numbers(of: str) -> dict[str, str]:
-    """Return metadata of the field of an array of numbers of elements, edges and so on; -1 is none.
+    """Return metadata of a field that holds numbers of elements, edges and so on; -1 for none.
 
     Parameters
     ----------
@@ -28,17 +28,17 @@ def numbers(of: str) -> dict[str, str]:
 
 
 def concatenate(parts: Sequence[Record], offsets: Mapping[str, Ints], **given: Any) -> Record:
-    """Return records as one.
+    """Return the records as one.
 
-    Arrays and polygons follow one another, numbers (`numbers`) are raised by the offsets of what
-    they count, records within are concatenated alike.
+    Arrays and polygons are concatenated, numbers (`numbers`) are increased by the offsets of what
+    they count, and nested records are concatenated likewise.
 
     Parameters
     ----------
     offsets
-        First number (p,) of each part, for whatever the fields number.
+        First number (p,) of each part, for each kind of thing that fields number.
     given
-        Fields that are not made of those of the parts.
+        Values of fields that are not concatenated.
     """
     made = dict(given)
     for item in fields(parts[0]):  # type: ignore[arg-type]
@@ -49,7 +49,7 @@ def concatenate(parts: Sequence[Record], offsets: Mapping[str, Ints], **given: A
 
 
 def starts(counts: Sequence[int]) -> Ints:
-    """Return the first number of each part, of how many each counts."""
+    """Return the first number of each part from the counts of the parts."""
     return np.cumsum([0, *counts])[:-1]
 
 

@@ -1,4 +1,4 @@
-"""One patch a block, weight 1: the covers of discontinuous deformation analysis (Shi 1988)."""
+"""One patch of weight 1 for each block: discontinuous deformation analysis (Shi 1988)."""
 
 import numpy as np
 
@@ -13,12 +13,12 @@ from integration.polygons import Polygons, areas, centroids, diameters
 
 
 def block_manifold(polygons: Polygons, regions: Ints, functions: LocalFunctions) -> Manifold:
-    """Build the manifold with one physical cover and one element a block.
+    """Return the manifold with one physical cover and one element for each block.
 
     Parameters
     ----------
     polygons
-        The blocks, in the place where the local functions are centred on their centroids.
+        The blocks in the reference configuration; local functions are centred on their centroids.
     regions
         (N,) input region of each block.
     functions

@@ -1,24 +1,24 @@
-"""How many functions of an approximation depend on the others.
+"""The number of linearly dependent functions of an approximation.
 
 Hats on triangles, ``sum w_i x_i = x``, give for every polynomial field ``B`` of degree p, with
 ``B_p . x = 0`` for its top-degree part,
 
     sum_i w_i(x) B(x) . (x_i - x) = 0,
 
-which are p (p + 2) dependent functions of each displacement component on each connected piece of
-material, and there are no others (for p = 1 they are the motions of the mesh as a truss). Where
-covers of lower degree take part, the fields ``B`` remain whose terms they hold.
+which are p (p + 2) dependent functions of each displacement component on each connected body, and
+there are no others (for p = 1 they are the motions of the mesh as a truss). With covers of lower
+degree only those fields ``B`` remain whose terms these covers contain.
 
 Bilinear hats on a grid give more. Along every line of nodes, with ``r`` of degree p - 1,
 
     w_j(y) sum_i w_i(x) (x_i - x) r(x, y) = 0,
 
 and the same across: p (p + 1) / 2 for each connected line of covers. The p (p - 1) / 2 fields
-``(x_i - x) (y_j - y) r(x, y)`` of a connected piece are in both families.
+``(x_i - x) (y_j - y) r(x, y)`` of a connected body are in both families.
 
-For all other weights the null space is counted: the eigenvalues of the Gram matrix, of unit
-diagonal, below `ZERO`. By Sylvester's law they are as many as negative pivots of the matrix less
-`ZERO` times the identity.
+For all other weights the dimension of the null space is the number of eigenvalues of the Gram
+matrix, scaled to unit diagonal, below `ZERO`. By Sylvester's law of inertia it is the number of
+negative pivots of the matrix minus `ZERO` times the identity.
 """
 
 from collections.abc import Callable, Sequence
@@ -37,10 +37,10 @@ from covers.mathematical.triangles import HATS
 from integration.arrays import Floats, Ints
 from integration.monomials import count, exponents, multiply
 
-# Eigenvalues of a Gram matrix of unit diagonal below this are zero: they are squares of singular
-# values, of which those of cubic covers on triangles reach down to 1e-4 of the largest.
+# Eigenvalues of a Gram matrix of unit diagonal below this count as zero. They are squares of
+# singular values, of which those of cubic covers on triangles reach down to 1e-4 of the largest.
 ZERO = 1e-12
-# A singular value below this part of the largest is zero in the small matrices of closed forms.
+# Singular values below this share of the largest count as zero in the matrices of the closed form.
 RANK = 1e-10
 
 
@@ -51,16 +51,16 @@ def dependent_functions(
     which: Ints,
     groups: Callable[[], tuple[Sequence[ElementGroup], int]],
 ) -> int:
-    """Return how many vector functions of an approximation depend on the others.
+    """Return the number of vector functions of an approximation that depend on the others.
 
     Parameters
     ----------
     cover, cut
-        The mathematical cover and what the cut has made of it.
+        The mathematical cover, and the cut of it.
     functions, which
-        Local functions, and which of them each physical cover (C,) has.
+        Local functions, and the number of those of each physical cover (C,).
     groups
-        Gives the element groups and the number of unknowns, when they are needed.
+        Returns the element groups and the number of unknowns, called only if they are needed.
     """
     degree = np.array([item.degree for item in functions])[which]
     if not degree.any():
@@ -94,7 +94,7 @@ def _of_triangles(cover: Cover, cut: CutCells, degree: Ints) -> int:
 
 
 def _terms_not_held(nodes: Floats, degree: Ints, highest: int) -> int:
-    """Number of conditions that covers of lower ``degree`` (m,) at ``nodes`` lay on ``B``."""
+    """Number of conditions on ``B`` by covers of lower ``degree`` (m,) at ``nodes`` (m, 2)."""
     fields = _null_fields(highest)
     size = count(highest + 1)
     order = exponents(highest + 1).sum(axis=1)

@@ -1,4 +1,4 @@
-"""Ghost stabilisation: small cut elements follow the fields of their neighbours."""
+"""Ghost penalty: stabilisation of small cut elements by the fields of their neighbours."""
 
 import numpy as np
 from scipy.sparse import coo_array, csc_array, eye_array, kron
@@ -9,7 +9,7 @@ from integration.rules import polygon_rule
 
 
 def neighbours(manifold: Manifold, elements: Ints) -> tuple[Ints, Ints]:
-    """Pairs of elements, one of them among ``elements``, that share an edge within a body."""
+    """Return pairs of elements of a body that share an edge, at least one of ``elements``."""
     first, second = manifold.shared_edges
     mine = np.zeros(len(manifold.elements), dtype=bool)
     mine[elements] = True
@@ -18,19 +18,19 @@ def neighbours(manifold: Manifold, elements: Ints) -> tuple[Ints, Ints]:
 
 
 def ghost(manifold: Manifold, elements: Ints, weight: Floats, degree: int) -> csc_array:
-    """Matrix of ``sum over pairs of int |E u_1 - E u_2|^2`` over both elements of each pair.
+    """Return the matrix (n, n) of ``sum over pairs of int |E u_1 - E u_2|^2`` over both elements.
 
-    ``E`` continues the polynomials of an element; the form vanishes for polynomials over both, so
+    ``E`` extends the polynomials of an element; the form vanishes for polynomials over both, so
     that it keeps the order of the approximation (Burman 2010; Lehrenfeld and Olshanskii 2019).
-    Elements whose fields have no values beyond them (meshless covers, fields singular at a crack)
-    are left out.
+    Elements whose fields cannot be extended (meshless covers, fields singular at a crack) are left
+    out.
 
     Parameters
     ----------
     elements
-        Elements to stabilise: pairs are they and their neighbours.
+        Elements to stabilise, each in pairs with its neighbours.
     weight
-        (E,) factor of the form by element; that of the first of a pair serves.
+        (E,) factor of the form by element; that of the first of a pair counts.
     degree
         Degree of the displacements.
     """
@@ -60,7 +60,7 @@ def ghost(manifold: Manifold, elements: Ints, weight: Floats, degree: int) -> cs
 
 
 def _summed(pair: Ints, factor: Floats, unknowns: Ints, jump: Floats, n: int) -> csc_array:
-    """Sum over points of ``factor jump^T jump``, dense by pair first: points of a pair are many."""
+    """Sum over points of ``factor jump^T jump``, first over the many points of each pair."""
     order = np.argsort(pair, kind="stable")
     counts = np.bincount(pair)
     begin = np.cumsum(counts) - counts

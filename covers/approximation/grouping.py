@@ -1,4 +1,4 @@
-"""Elements of a cut cover, grouped by the shape of their approximation."""
+"""The elements of a cut cover in groups of the same local functions."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -39,15 +39,15 @@ class Pattern:
     Attributes
     ----------
     elements
-        (n,) of the cut cover.
+        (n,) numbers in the cut.
     slots
-        (n, k) places of their active covers among those of their cell.
+        (n, k) positions of their active covers among those of their cell.
     covers
         (n, k) the active physical covers.
     functions
         Local functions of the k covers.
     carried
-        (k,) singular points whose functions each carries besides.
+        (k,) number of singular points whose functions each cover carries too.
     """
 
     elements: Ints
@@ -64,20 +64,20 @@ class Pattern:
 
 @dataclass(frozen=True)
 class Grouping:
-    """A cut cover with the coordinates and the numbers of its unknowns.
+    """A cut cover with its local coordinates and the numbers of its unknowns.
 
     Attributes
     ----------
     cover, cut, kinds, enrichments
-        As the manifold is made of them.
+        What the manifold is made of.
     covers
         Physical covers with their coordinates.
     offset
         (C + 1,) first unknown of each physical cover.
     fitted
-        (C,) covers whose coordinates fit what a cut left of them.
+        (C,) whether coordinates are fitted to the part of the cover that the cut left.
     carriers
-        Covers that carry functions of singular points.
+        The singular functions that covers carry.
     frames
         Coordinates of elements.
     """
@@ -96,7 +96,7 @@ class Grouping:
     def of(
         cls, cover: Cover, cut: CutCells, kinds: Kinds, enrichments: tuple[Enrichment, ...]
     ) -> "Grouping":
-        """Number the unknowns of a cut cover, and lay coordinates into covers and elements."""
+        """Number the unknowns of a cut cover, and choose coordinates for covers and elements."""
         size = kinds.each(lambda item: item.n_unknowns)
         carried = no_carriers(cut)
         if enrichments:
@@ -113,7 +113,7 @@ class Grouping:
         return cls(cover, cut, kinds, enrichments, covers, offset, fitted, carried, frames)
 
     def groups(self) -> Iterator[ElementGroup]:
-        """One group for each pattern of local functions among the covers of elements."""
+        """Yield a group for each pattern of local functions among the covers of elements."""
         for pattern in self._patterns():
             if pattern.carried.any():
                 yield self._enriched(pattern)
@@ -127,7 +127,7 @@ class Grouping:
         none = most * len(self.kinds.functions)
         code = most * self.kinds.which + self.carriers.counts
         codes = np.where(covers >= 0, code[covers], none)
-        # Enriched slots first, then by functions, inactive ones last; equal ones stay in order.
+        # Enriched slots first, then by functions, inactive ones last, in a stable order.
         rank = np.where(codes == none, none, codes - none * (codes % most))
         slots = np.argsort(rank, axis=1, kind="stable")
         for elements, row in _equal_rows(np.take_along_axis(codes, slots, axis=1)):
@@ -149,21 +149,21 @@ class Grouping:
         return polynomial_group(shapes, first, covers, weights, functions, self.covers)
 
     def _weights(self, pattern: Pattern, shapes: Shapes, size: Floats) -> Weights:
-        """Return those of the first element of each shape, tabled in lengths of 1 / size (d,)."""
+        """Return the weights on the first element of each shape; ``size`` (d,) scales it (1/m)."""
         cells = self.cut.element_cell[pattern.elements[shapes.first]]
         table, degree = self.cover.weight_tables(cells, shapes.origin[shapes.first], 1 / size)
         table = np.take_along_axis(table, pattern.slots[shapes.first, :, None], axis=1)
         d, k, n_monomials = table.shape
-        # From (x - origin) size to the element's own coordinates.
+        # From (x - origin) size to the coordinates of the element.
         back = inverses(shapes.matrix) * size[:, None, None]
         still = np.zeros((d * k, 2))
         fitted = affine(table.reshape(d * k, -1), degree, np.repeat(back, k, axis=0), still)
         return Weights(degree, fitted.reshape(d, k, n_monomials))
 
     def _shapes(self, pattern: Pattern) -> Shapes:
-        """Congruent whole cells share a shape when all their covers are whole too.
+        """Return the shapes of elements: congruent whole cells with whole covers share one.
 
-        Where degrees vary, covers of one degree must stand at the same corners besides.
+        Where degrees vary, covers of equal degree must also be at the same corners.
         """
         cut, elements, slots = self.cut, pattern.elements, pattern.slots
         alike = cut.element_whole[elements] & ~self.fitted[pattern.covers].any(axis=1)
@@ -199,7 +199,7 @@ class Grouping:
         )
 
     def _enriched(self, pattern: Pattern) -> ElementGroup:
-        """Singular functions follow the polynomials of all covers."""
+        """Return a group with singular functions, which follow the polynomials of all covers."""
         elements, every = pattern.elements, np.arange(len(pattern.elements))
         polynomial = unknowns_of(pattern.functions, self.covers, pattern.covers)
         singular, fields = self._singular(pattern)
@@ -221,7 +221,7 @@ class Grouping:
         )
 
     def _singular(self, pattern: Pattern) -> tuple[Ints, EnrichedFields]:
-        """Unknowns (n, v) of the singular functions of elements, and the fields with them."""
+        """Return the unknowns (n, v) of the singular functions of elements, and all fields."""
         elements, carried = pattern.elements, pattern.carried
         carrying = np.repeat(np.arange(len(carried)), carried)
         cover, rank = pattern.covers[:, carrying], within(carried)
@@ -245,7 +245,7 @@ class Grouping:
 
 
 def _equal_rows(codes: Ints) -> Iterator[tuple[Ints, Ints]]:
-    """Yield the numbers of equal rows, and the row, for each that there is."""
+    """Yield the numbers of equal rows, and the row, for each distinct row."""
     if (codes == codes[0]).all():
         distinct, which = codes[:1], np.zeros(len(codes), dtype=np.int64)
     else:
@@ -256,7 +256,7 @@ def _equal_rows(codes: Ints) -> Iterator[tuple[Ints, Ints]]:
 
 
 def _with_vectors(base: Floats | None, unknowns: int, vectors: int) -> Floats:
-    """Return how unknowns combine scalar functions where vector functions follow.
+    """Return the combination of scalar functions where vector functions follow them.
 
     Two scalar functions, of the x and the y component, make one vector function.
     """

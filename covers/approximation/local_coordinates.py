@@ -11,7 +11,7 @@ from integration.polygons import Polygons, diameters
 
 
 def part_frames(cut: CutCells) -> tuple[LocalFrames, Ints]:
-    """Coordinates of the elements that are not whole cells, and which those are."""
+    """Return the coordinates of the elements that are not whole cells, and their numbers."""
     parts = np.flatnonzero(~cut.element_whole)
     if not len(parts):
         return LocalFrames(np.zeros((0, 2)), np.zeros((0, 2, 2))), parts
@@ -19,7 +19,7 @@ def part_frames(cut: CutCells) -> tuple[LocalFrames, Ints]:
 
 
 def elements_coordinates(cut: CutCells, frames: LocalFrames, parts: Ints) -> LocalFrames:
-    """Coordinates of all elements (E,): those of parts of cells, of squares for whole ones."""
+    """Return the coordinates of all elements (E,): fitted for parts of cells, else scaled."""
     centre = cut.elements.centroids.copy()
     matrix = np.eye(2) * (2 / diameters(cut.elements))[:, None, None]
     centre[parts], matrix[parts] = frames.centre, frames.matrix
@@ -27,7 +27,7 @@ def elements_coordinates(cut: CutCells, frames: LocalFrames, parts: Ints) -> Loc
 
 
 def fitted_covers(cut: CutCells, kinds: Kinds) -> Bools:
-    """Covers (C,) whose coordinates are fitted: touched by a cut, with polynomials to fit."""
+    """Return which covers (C,) get fitted coordinates: those touched by a cut, of degree > 0."""
     touched = np.zeros(cut.n_covers + 1, dtype=bool)
     touched[cut.covers[~cut.element_whole]] = True
     able = kinds.each(lambda item: item.degree > 0 and not item.physical_length)
@@ -37,7 +37,7 @@ def fitted_covers(cut: CutCells, kinds: Kinds) -> Bools:
 def covers_coordinates(
     cover: Cover, cut: CutCells, kinds: Kinds, fitted: Bools, parts: Ints, frames: LocalFrames
 ) -> LocalFrames:
-    """Coordinates of all covers (C,): of the patch, or fitted to what is left of it."""
+    """Return the coordinates of all covers (C,): of the patch, or fitted to its part left."""
     centre = cover.patch_centre[cut.cover_patch].copy()
     physical = kinds.each(lambda item: item.physical_length)
     size = np.where(physical, 1.0, cover.patch_size[cut.cover_patch])
@@ -60,7 +60,7 @@ def covers_coordinates(
 def _some(
     cut: CutCells, polygons: Polygons, own: Ints, parts: Ints, frames: LocalFrames
 ) -> LocalFrames:
-    """Frames of some elements: their own when they are parts of cells, those of squares else."""
+    """Coordinates of some elements: fitted for parts of cells, else scaled."""
     matrix = np.eye(2) * (2 / diameters(polygons))[:, None, None]
     mine = np.isin(own, parts)
     matrix[mine] = frames.matrix[np.searchsorted(parts, own[mine])]

@@ -1,8 +1,8 @@
-"""The manifold: elements, physical covers, unknowns, boundary: the one approximation.
+"""The manifold: elements, physical covers, unknowns and boundary of an approximation.
 
-Displacement is ``u(x) = sum_i w_i(x) sum_j f_ij(x) d_ij`` over physical covers ``i``
-(Shi 1991, 1997). DDA, finite elements, manifold and meshless formulations are manifolds made by
-different covers.
+The displacement is ``u(x) = sum_i w_i(x) sum_j f_ij(x) d_ij`` over physical covers ``i``
+(Shi 1991, 1997). DDA, the finite element method, the manifold method and meshless methods are
+manifolds of different covers.
 """
 
 from dataclasses import dataclass, field
@@ -28,11 +28,11 @@ class Manifold:
     elements
         E polygons: the integration domains.
     element_body
-        (E,) connected piece of material each element belongs to.
+        (E,) body of each element: a connected part of the material.
     element_region
-        (E,) input region each element comes from; its material hangs on it.
+        (E,) input region of each element, which determines its material.
     groups
-        Element groups; together they hold every element once.
+        Element groups; every element is in one of them.
     cover_offset
         (C + 1,) first unknown of each physical cover.
     cover_patch, cover_body
@@ -40,29 +40,28 @@ class Manifold:
     boundary
         Edges of the bodies.
     rigid_modes
-        (n_unknowns, 3 B) unknowns of unit translations along x and y and of the unit linear
-        rotation about the body's centroid, three columns a body.
+        (n_unknowns, 3 B) unknowns of unit translations along x and y and of the unit linearised
+        rotation about the centroid, three columns for each body.
     stretch_modes
-        (n_unknowns, B) unknowns of the field ``X - Xc`` of each body.
+        (n_unknowns, B) unknowns of the field ``X - Xc`` of each body, with its centroid ``Xc``.
     body_centroid, body_area
-        (B, 2) and (B,).
+        (B, 2) centroids (m), and (B,) areas (m2).
     dependent
-        Number of functions known to depend on the others; above zero the system is singular and
-        displacements are unique all the same (`covers.approximation.dependence`).
+        Number of linearly dependent functions; above zero the system is singular, but displacements
+        are unique (`covers.approximation.dependence`).
     dependent_covers
-        Number of covers whose polynomials take part in them.
+        Number of covers whose functions are among them.
     reproduction
-        Highest degree of the polynomials that displacements across elements hold everywhere; None
-        where every block has covers of its own.
+        Highest degree of polynomials that are reproduced everywhere; None where every block has
+        covers of its own.
     richest
-        The same where local functions are of the highest degree.
+        The same where local functions have the highest degree.
     fitted, enriched
-        Number of covers whose coordinates fit what a cut has left of them, and of those that
-        carry singular functions.
+        Number of covers with coordinates fitted to the cut, and of covers with singular functions.
     mended
-        What was done to patches that reach the material too little, in words, and to how many.
+        Changes of patches with too little material, in words, with the number of patches.
     singular
-        (k, 2) points whose singular functions covers carry (m).
+        (k, 2) singular points whose functions covers carry (m).
     """
 
     elements: Polygons
@@ -93,7 +92,7 @@ class Manifold:
 
     @property
     def n_bodies(self) -> int:
-        """Number of connected pieces of material."""
+        """Number of bodies."""
         return len(self.body_area)
 
     @property
@@ -103,17 +102,17 @@ class Manifold:
 
     @property
     def degree(self) -> int:
-        """Highest degree of the displacements on an element, as far as it is known."""
+        """Highest degree of displacements on an element, see `ElementGroup.shape_degree`."""
         return max((group.shape_degree for group in self.groups), default=1)
 
     @property
     def shared_covers(self) -> bool:
-        """Whether covers reach over several elements, instead of one block each."""
+        """Whether covers extend over several elements, instead of one block each."""
         return self.reproduction is not None
 
     @property
     def trace_degree(self) -> int | None:
-        """Highest degree of displacements along edges; None where some are no polynomials."""
+        """Highest degree of displacements along edges; None where some are not polynomials."""
         degrees = [group.trace_degree for group in self.groups]
         known = [degree for degree in degrees if degree is not None]
         return max(known, default=1) if len(known) == len(degrees) else None
@@ -134,7 +133,7 @@ class Manifold:
 
     @cached_property
     def extends(self) -> Bools:
-        """(E,) elements whose fields can be continued beyond them."""
+        """(E,) whether the field of an element can be extended beyond it."""
         found = np.zeros(len(self.elements), dtype=bool)
         for group in self.groups:  # a handful of groups
             found[group.elements] = group.extends
@@ -145,10 +144,10 @@ class Manifold:
         return Rows(*self._stack(elements, points, "displacement_rows"))
 
     def scalar_rows(self, elements: Ints, points: Floats) -> tuple[Ints, Floats]:
-        """Numbers (m, S) of the scalar functions at ``points`` and their values (m, S).
+        """Numbers (m, S) of the scalar functions at ``points`` (m, 2) and their values (m, S).
 
-        Function ``k`` goes with the unknowns ``2 k`` of x and ``2 k + 1`` of y. Only where no
-        group combines its functions.
+        Function ``k`` belongs to the unknowns ``2 k`` of x and ``2 k + 1`` of y. Valid only where
+        no group combines its functions.
         """
         unknowns, values = self._stack(elements, points, "values")
         return unknowns[:, ::2] // 2, values[:, : unknowns.shape[1] // 2]

@@ -1,4 +1,4 @@
-"""The manifold of a cut cover."""
+"""The manifold of a cut mathematical cover."""
 
 from collections.abc import Sequence
 
@@ -22,26 +22,26 @@ def mesh_manifold(
     functions: LocalFunctions | Kinds,
     enrichments: Sequence[Enrichment] = (),
 ) -> Manifold:
-    """Build the manifold of a cut mathematical cover.
+    """Return the manifold of a cut mathematical cover.
 
-    Cells that no line cuts are congruent in regular nets and share their integrals. Elements and
-    covers that a cut touches get coordinates that fit what is left of them
-    (`covers.approximation.whitening`), so that the conditioning does not depend on the cut.
+    Uncut cells of regular meshes are congruent and share their integrals. Elements and covers that
+    are cut get coordinates fitted to the part that is left (`covers.approximation.whitening`), so
+    that the conditioning does not depend on the cut.
 
     Parameters
     ----------
     cover, cut
-        The mathematical cover and what `covers.cutting.cut` made of it.
+        The mathematical cover, and the result of `covers.cutting.cut`.
     functions
-        Local functions of all physical covers, or `Kinds` that vary from cover to cover.
+        Local functions of all physical covers, or `Kinds` of each.
     enrichments
-        Singular points whose functions the covers about them carry too.
+        Singular points, whose functions the covers about them carry too.
     """
     kinds = functions if isinstance(functions, Kinds) else _uniform(functions, cut.n_covers)
     grouping = Grouping.of(cover, cut, kinds, tuple(enrichments))
     n_unknowns = int(grouping.offset[-1])
     body_area, body_centroid = _bodies(cut)
-    # Covers hold rigid motions themselves where all can, as their mass block by block asks.
+    # Where all covers contain rigid motions, each represents them itself, as lumped mass needs.
     degrees = [item.degree for item in kinds.functions]
     lowest = min(degrees)
     by_nodes = cover.precision >= 1 and lowest == 0
@@ -77,7 +77,7 @@ def mesh_manifold(
 
 
 def _carried(enrichments: Sequence[Enrichment], found: Carriers) -> Floats:
-    """Singular points (n, 2) whose functions are carried."""
+    """Singular points (n, 2) whose functions covers carry."""
     places = np.array([item.point for item in enrichments]).reshape(-1, 2)
     return np.asarray(places[found.carried])
 

@@ -1,4 +1,4 @@
-"""The points by which a manifold integrates products of its functions."""
+"""The quadrature of a manifold for products of its functions."""
 
 import numpy as np
 
@@ -10,10 +10,10 @@ from integration.rules import PointRule, polygon_rule
 
 
 def own_rule(manifold: Manifold) -> PointRule:
-    """Return points and weights over all elements, sorted by element.
+    """Return the quadrature points of all elements, sorted by element.
 
-    Sums over them are the integrals of the element matrices: exact where functions are
-    polynomials, and by the same points where they are not.
+    It gives the integrals of the element matrices: exact for polynomials, and the same points for
+    other functions.
     """
     parts = [_of_group(manifold, group) for group in manifold.groups]  # a handful of groups
     owner = np.concatenate([part.owner for part in parts])

@@ -1,4 +1,4 @@
-"""Unknowns of the rigid motions of each body."""
+"""The unknowns of rigid motions and of the uniform stretch of each body."""
 
 import numpy as np
 from scipy.sparse import csc_array
@@ -17,18 +17,18 @@ def rigid_modes(
     body_centroid: Floats,
     nodes: Floats | None = None,
 ) -> csc_array:
-    """Return the unknowns (n_unknowns, 3 B) of translation x, y and linear rotation of each body.
+    """Return the unknowns (n_unknowns, 3 B) of translations and linearised rotation of each body.
 
-    The rotation is about the body's centroid. It is exact when all local functions hold the
-    linear field, or when the weights reproduce linear fields from values at nodes.
+    The rotation is about the centroid. It is exact if all local functions contain linear fields, or
+    if the weights reproduce linear fields from values at nodes.
 
     Parameters
     ----------
     kinds
         Local functions of each cover.
     nodes
-        (C, 2) nodes of weights with linear precision: covers then take the field's values there,
-        whatever their degrees; None lets every cover hold the field itself.
+        (C, 2) nodes of weights of linear precision, at which covers of any degree take the values
+        of the field; None to represent the field in every cover.
     """
     fields = [(np.array([1.0, 0.0]), STILL), (np.array([0.0, 1.0]), STILL), (np.zeros(2), TURN)]
     return _modes(fields, kinds, covers, n_unknowns, body_centroid, nodes)

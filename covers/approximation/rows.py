@@ -1,6 +1,6 @@
-"""Evaluation rows: displacement at points as a linear function of the unknowns.
+"""Evaluation rows: the displacement at points as a linear function of the unknowns.
 
-Contact, supports, point loads and monitors know points, not covers: a row is all they need.
+They are all that contact, supports, point loads and monitors need to know of covers.
 """
 
 from dataclasses import dataclass
@@ -14,14 +14,14 @@ from integration.contraction import contract
 
 @dataclass(frozen=True)
 class Rows:
-    """Rows ``u(point) = sum_a values[:, :, a] d[unknowns[:, a]]``, zero padded.
+    """Rows ``u(point) = sum_a values[:, :, a] d[unknowns[:, a]]``, padded with zeros.
 
     Attributes
     ----------
     unknowns
         (m, L) global unknowns.
     values
-        (m, 2, L) the rows of both components.
+        (m, 2, L) rows of both components.
     """
 
     unknowns: Ints
@@ -31,37 +31,37 @@ class Rows:
         return len(self.unknowns)
 
     def apply(self, unknowns: Floats) -> Floats:
-        """Displacement (m, 2) at the points for a vector of all unknowns."""
+        """Displacement (m, 2) at the points for the vector (n,) of all unknowns."""
         return np.asarray(contract("mcl,ml->mc", self.values, unknowns[self.unknowns]))
 
     def along(self, directions: Floats) -> Floats:
-        """Rows (m, L) of the displacement along one direction (m, 2) a point."""
+        """Rows (m, L) of the displacement along a direction (m, 2) at each point."""
         return np.asarray(contract("mcl,mc->ml", self.values, directions))
 
     def spread(self, directions: Floats, n_unknowns: int) -> Floats:
-        """Return the sums (n,) over the points of what vectors (m, 2) do on each unknown."""
+        """Return the load vector (n,) of forces (m, 2) at the points."""
         terms = self.along(directions)
         found = np.bincount(self.unknowns.ravel(), terms.ravel(), minlength=n_unknowns)
         return np.asarray(found, dtype=np.float64)
 
     def take(self, index: Ints) -> "Rows":
-        """Return the rows of some points."""
+        """Return the rows of selected points."""
         return Rows(self.unknowns[index], self.values[index])
 
     def matrix(self, n_unknowns: int) -> csr_array:
-        """Return the sparse matrix (2m, n_unknowns), component minor."""
+        """Return the sparse matrix (2m, n_unknowns), both components of a point together."""
         m, components, length = self.values.shape
         values = self.values.reshape(components * m, length)
         return row_matrix(np.repeat(self.unknowns, components, axis=0), values, n_unknowns)
 
 
 def row_matrix(unknowns: Ints, values: Floats, n: int, merged: bool = False) -> csr_array:
-    """Matrix (m, n) of rows (m, L) of unknowns (m, L).
+    """Return the matrix (m, n) of row values (m, L) at unknowns (m, L).
 
-    An unknown that a row names twice has two entries, or with ``merged`` one, their sum.
+    An unknown that occurs twice in a row has two entries, or with ``merged`` their sum.
     """
     m, length = values.shape
-    # Columns of its own: to merge them sorts them in place.
+    # A copy of the columns, as merging sorts them in place.
     found = csr_array((values.ravel(), unknowns.flatten(), np.arange(m + 1) * length), shape=(m, n))
     if merged:
         found.sum_duplicates()
@@ -69,7 +69,7 @@ def row_matrix(unknowns: Ints, values: Floats, n: int, merged: bool = False) -> 
 
 
 def stack_groups(parts: list[tuple[Ints, Ints, Floats]], n_points: int) -> tuple[Ints, Floats]:
-    """Join rows of several element groups, padded to the longest.
+    """Return rows of several element groups together, padded to the longest.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The trivial cut: every element is a whole cell with a patch, a cover and a body of its own."""
+"""The trivial cut: every element is a cell with a patch, a cover and a body of its own."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from covers.cutting.cut_cells import CutCells
 
 
 def uncut(manifold: Manifold) -> CutCells:
-    """Return elements as the cells of a cover that no boundary and no crack cuts."""
+    """Return the elements of a manifold as an uncut cover."""
     elements, regions, edges = manifold.elements, manifold.element_region, manifold.boundary
     number = np.arange(len(elements), dtype=np.int64)
     none = np.full(len(edges), -1, dtype=np.int64)

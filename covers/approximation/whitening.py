@@ -1,9 +1,9 @@
-"""Local coordinates that fit what a cut has left of elements and covers.
+"""Local coordinates fitted to the cut parts of elements and covers (whitening).
 
-A cover of which a cut leaves a sliver has polynomials that are nearly dependent in coordinates
-scaled by the cell. In ``xi = Sigma^-1/2 (x - c) / 2``, with centroid ``c`` and covariance ``Sigma``
-of what is left, they are as independent as on a square, whatever the shape: the space is the same
-and the conditioning bounded (Schweitzer 2011 states why local coordinates suffice).
+On a sliver, the polynomials of a cover are nearly dependent in coordinates scaled by the cell. In
+``xi = Sigma^-1/2 (x - c) / 2``, with the centroid ``c`` and the covariance ``Sigma`` of the part
+that is left, they are as independent as on a square for any shape: the space is the same, and the
+conditioning is bounded (Schweitzer 2011 states why local coordinates suffice).
 """
 
 from dataclasses import dataclass
@@ -15,13 +15,13 @@ from integration.arrays import Floats, Ints
 from integration.moments import moments
 from integration.polygons import Polygons, diameters
 
-# Correlations above this, after the principal axes were taken out, are rounding.
+# Correlations above this along the principal axes are rounding.
 CORRELATED = 0.99
 
 
 @dataclass(frozen=True)
 class LocalFrames:
-    """Coordinates ``matrix (x - centre)``: (n, 2) and (n, 2, 2)."""
+    """Coordinates ``matrix (x - centre)``, with centres (n, 2) (m) and matrices (n, 2, 2) (1/m)."""
 
     centre: Floats
     matrix: Floats
@@ -29,7 +29,7 @@ class LocalFrames:
 
 @dataclass(frozen=True)
 class Spread:
-    """Area (n,), centroid (n, 2) and a root ``F`` (n, 2, 2) of the covariance ``F F^T``."""
+    """Area (n,), centroid (n, 2) and root ``F`` (n, 2, 2) of the covariance ``F F^T``."""
 
     area: Floats
     centre: Floats
@@ -37,7 +37,7 @@ class Spread:
 
 
 def element_frames(polygons: Polygons) -> LocalFrames:
-    """Coordinates along the principal axes, between -1 and 1 over each polygon."""
+    """Return coordinates along the principal axes, between -1 and 1 over each polygon."""
     centre = polygons.centroids
     second = moments(polygons, 2, scale=diameters(polygons))[:, [[3, 4], [4, 5]]]
     axes = np.swapaxes(np.linalg.eigh(second / second.max(axis=(1, 2), keepdims=True))[1], 1, 2)
@@ -48,7 +48,7 @@ def element_frames(polygons: Polygons) -> LocalFrames:
 
 
 def element_spread(polygons: Polygons, frames: LocalFrames) -> Spread:
-    """Covariances as roots, which keep their figures for needles."""
+    """Return covariances as roots, which stay accurate for slender polygons."""
     owner = polygons.polygon_of_point
     away = polygons.points - frames.centre[owner]
     local = polygons.with_points(np.einsum("pij,pj->pi", frames.matrix[owner], away))
@@ -58,14 +58,14 @@ def element_spread(polygons: Polygons, frames: LocalFrames) -> Spread:
 
 
 def cover_frames(parts: Spread, element: Ints, cover: Ints, n_covers: int) -> LocalFrames:
-    """Whitened coordinates of covers from pairs (p,) of an element and a cover it belongs to."""
+    """Return whitened coordinates of covers from pairs (p,) of an element and a cover of it."""
     area, root = parts.area[element], parts.root[element]
     total = np.bincount(cover, area, minlength=n_covers)
     share = area / total[cover]
     centre = _sums(share[:, None] * parts.centre[element], cover, n_covers)
     away = parts.centre[element] - centre[cover]
     axes = np.swapaxes(np.linalg.eigh(_covariance(share, away, root, cover, n_covers))[1], 1, 2)
-    # The axes are exact to rounding, the small variance is not: take it again along the axes.
+    # The axes are accurate, the smaller variance is not: compute it again along the axes.
     turned = np.einsum("pij,pj->pi", axes[cover], away)
     covariance = _covariance(share, turned, axes[cover] @ root, cover, n_covers)
     deviation = np.sqrt(np.stack([covariance[:, 0, 0], covariance[:, 1, 1]], axis=1))

@@ -1,4 +1,4 @@
-"""From one manifold to the next on the same material: what became of what, and fields carried over.
+"""From one manifold to the next on the same material: parentage, and transfer of fields.
 
-Nothing here says why a manifold changes, and nothing knows of materials but their weight.
+Nothing here says why a manifold changes, nor knows of materials beyond density and elasticity.
 """

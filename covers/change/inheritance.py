@@ -1,7 +1,7 @@
-"""Which unknowns of a manifold go with the same function as one of the manifold before it.
+"""Unknowns of a manifold that have the same function as one of the manifold before it.
 
-Where a crack grows all but the covers about its tip stay as they were: their unknowns are handed
-over and nothing has to be solved for.
+Where a crack grows, all covers but those about its tip stay as they were. Their unknowns are copied
+and need not be solved for.
 """
 
 import numpy as np
@@ -11,17 +11,17 @@ from covers.approximation.rows import Rows
 from covers.change.parentage import Parentage
 from integration.arrays import Bools, Floats, Ints
 
-# Values of functions that differ by less than this share of the largest at a point are the same.
+# Relative difference of values below which functions are the same.
 ALIKE = 1e-9
-# Functions are compared at one place of each element: its centroid, moved this far to a vertex.
+# Functions are compared at the centroid of each element, moved by this share towards a vertex.
 ASIDE = 0.3
 
 
 def inherited(kin: Parentage) -> Ints:
-    """Old unknown (n,) that goes with the function of each new one; -1 where there is none.
+    """Return the old unknown (n,) with the function of each new one; -1 where there is none.
 
-    A cover hands its unknowns over if all elements that it has influence on are as they were, and
-    all functions on them.
+    The unknowns of a cover are inherited if all elements of its support, and all functions on them,
+    are unchanged.
     """
     old, new = kin.old, kin.new
     found = np.full(new.n_unknowns, -1, dtype=np.int64)
@@ -36,7 +36,7 @@ def inherited(kin: Parentage) -> Ints:
     row, slot = np.nonzero(there)
     parent, child = one.unknowns[row, slot], two.unknowns[row, slot]
     found[child] = parent
-    # What two elements say differently nobody inherits.
+    # Unknowns on which two elements disagree are not inherited.
     torn = np.bincount(row, found[child] != parent, minlength=len(after)) > 0
     left = np.zeros(len(new.elements), dtype=bool)
     left[after[same & ~torn]] = True
@@ -44,7 +44,7 @@ def inherited(kin: Parentage) -> Ints:
 
 
 def _places(manifold: Manifold, elements: Ints) -> Floats:
-    """One place (m, 2) in each of some elements, on none of their lines of symmetry."""
+    """A point (m, 2) in each of some elements, on no line of symmetry."""
     polygons = manifold.elements
     corner = polygons.points[polygons.first_point[elements]]
     return (1 - ASIDE) * polygons.centroids[elements] + ASIDE * corner
@@ -62,7 +62,7 @@ def _alike(one: Rows, two: Rows) -> Bools:
 
 
 def _all_in(manifold: Manifold, found: Ints, left: Bools) -> Bools:
-    """Which unknowns (n,) are of covers all of whose elements are among those ``left`` (E,)."""
+    """Which unknowns (n,) belong to covers whose elements are all ``left`` unchanged (E,)."""
     covers = np.ones(manifold.n_covers, dtype=bool)
     for group in manifold.groups:  # a handful of groups
         changed = group.unknowns[~left[group.elements]].ravel()
@@ -72,7 +72,7 @@ def _all_in(manifold: Manifold, found: Ints, left: Bools) -> Bools:
 
 
 def _all_of(old: Manifold, new: Manifold, found: Ints) -> Bools:
-    """Which unknowns (n,) are of covers with as many as the old ones that they come from."""
+    """Which unknowns (n,) belong to covers with as many unknowns as their old cover."""
     first = np.maximum(found[new.cover_offset[:-1]], 0)
     parent = np.searchsorted(old.cover_offset, first, side="right") - 1
     same = np.diff(old.cover_offset)[parent] == np.diff(new.cover_offset)

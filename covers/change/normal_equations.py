@@ -1,4 +1,4 @@
-"""Normal equations of least squares, singular where functions depend on one another."""
+"""Normal equations of least squares, which are singular for linearly dependent functions."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -10,16 +10,16 @@ from scipy.sparse import csc_array, diags_array, eye_array
 
 from integration.arrays import Floats
 
-# Added to a matrix of unit diagonal: far below what independent functions have left, and taken
-# out again by refinement.
+# Regularisation of a matrix of unit diagonal: far below its eigenvalues of independent functions,
+# and removed by iterative refinement.
 SHIFT = 1e-12
-# Most steps of refinement. They end when the correction no longer falls by half.
+# Largest number of refinements, which end when the correction no longer falls by half.
 REFINEMENTS = 40
 
 
 @dataclass(frozen=True)
 class NormalEquations:
-    """A positive semidefinite matrix; right-hand sides lie in its range."""
+    """A positive semidefinite matrix (n, n); right-hand sides lie in its range."""
 
     matrix: csc_array
 
@@ -49,9 +49,9 @@ class NormalEquations:
         start: Floats,
         kept: Callable[[Floats], Floats],
     ) -> Floats:
-        """Solve ``matrix @ x = side`` from ``start`` by steps with the factor of this matrix.
+        """Solve ``matrix @ x = side`` iteratively from ``start``, preconditioned by this matrix.
 
-        ``kept`` takes out of each correction what must stay as it was at the start.
+        ``kept`` removes from each correction the part that must stay as in ``start``.
         """
         found, last = start, np.inf
         for _ in range(REFINEMENTS):

@@ -1,7 +1,8 @@
-"""What became of elements, bodies, boundary edges and covers, of two manifolds on one material.
+"""Parentage of elements, bodies, boundary edges and covers of two manifolds on one material.
 
-Both lie in the same reference place, and their regions have the same numbers. Kin are those that
-have material, or boundary, in common: many old ones may have left it to many new ones.
+Both are in the same reference configuration, and their regions have the same numbers. An old and a
+new element are parent and child if they have material in common; any number of parents may have any
+number of children.
 """
 
 from dataclasses import dataclass
@@ -17,24 +18,24 @@ from covers.cutting.boundary import BoundaryEdges
 from integration.arrays import Bools, Floats, Ints
 from integration.polygons import Polygons
 
-# Overlaps below this share of the smaller of two elements are rounding of their vertices.
+# Overlaps below this share of the smaller of two elements are rounding of vertices.
 ROUNDING = 1e-12
-# Edges nearer than this share of the domain are the same: far above the resolution of cuts, far
-# below any cell.
+# Edges nearer to each other than this share of the size of the domain are the same: far above the
+# resolution of cuts, far below any cell.
 SAME_EDGE = 1e-9
 
 
 @dataclass(frozen=True)
 class Parentage:
-    """Kin of two manifolds.
+    """Parents and children of two manifolds.
 
     Attributes
     ----------
     old, new
-        Before and after.
+        The manifolds before and after.
     same
-        Whether elements and edges are one by one the same though they may lie elsewhere: bodies
-        laid anew where they stand.
+        Whether elements and edges correspond one by one though their places differ, as when the
+        reference configuration of bodies is updated.
     """
 
     old: Manifold
@@ -43,24 +44,24 @@ class Parentage:
 
     @cached_property
     def elements(self) -> Relation:
-        """Elements, by the area they have in common (m2)."""
+        """Elements, by common area (m2)."""
         return self._overlaps[0]
 
     @cached_property
     def pieces(self) -> Polygons:
-        """The parts that old and new elements have in common, in the order of `elements`."""
+        """The common parts of old and new elements, in the order of `elements`."""
         return self._overlaps[1]
 
     @cached_property
     def bodies(self) -> Relation:
-        """Bodies, by the area they have in common (m2)."""
+        """Bodies, by common area (m2)."""
         return self.elements.gathered(
             (self.old.element_body, self.new.element_body), (self.old.n_bodies, self.new.n_bodies)
         )
 
     @cached_property
     def edges(self) -> Relation:
-        """Boundary edges, by the length they have in common (m)."""
+        """Boundary edges, by common length (m)."""
         old, new = self.old.boundary, self.new.boundary
         if self.same or _same_edges(old, new):
             return identity(np.hypot(*(new.end - new.start).T))
@@ -68,7 +69,7 @@ class Parentage:
 
     @cached_property
     def covers(self) -> Relation:
-        """Covers, by the area where both have influence (m2)."""
+        """Covers, by the common area of their supports (m2)."""
         old, new = _incidence(self.old), _incidence(self.new)
         found = coo_array(old.T @ self.elements.matrix @ new)
         parent, child = (index.astype(np.int64) for index in found.coords)
@@ -83,7 +84,7 @@ class Parentage:
 
     @cached_property
     def kept(self) -> tuple[Ints, Ints]:
-        """Old and new numbers (k,) of the elements that the change has left as they were."""
+        """Old and new numbers (k,) of the unchanged elements."""
         if same_elements(self.old, self.new):
             every = np.arange(len(self.new.elements), dtype=np.int64)
             return every, every
@@ -91,7 +92,7 @@ class Parentage:
 
     @cached_property
     def whole(self) -> Bools:
-        """Which new bodies (B,) are all of one old one, and nothing else."""
+        """Which new bodies (B,) are identical with an old one."""
         bodies = self.bodies
         children = np.bincount(bodies.parent, minlength=bodies.n_parents)
         parents = np.bincount(bodies.child, minlength=bodies.n_children)
@@ -107,7 +108,7 @@ class Parentage:
 
 
 def same_elements(old: Manifold, new: Manifold) -> bool:
-    """Say whether the elements of two manifolds are one by one the same, where they lie too."""
+    """Return whether the elements of two manifolds are identical one by one."""
     a, b = old.elements, new.elements
     return np.array_equal(old.element_region, new.element_region) and all(
         np.array_equal(getattr(a, name), getattr(b, name))
@@ -121,7 +122,7 @@ def _same_edges(old: BoundaryEdges, new: BoundaryEdges) -> bool:
 
 
 def _overlaps(old: Manifold, new: Manifold, kept: tuple[Ints, Ints]) -> tuple[Relation, Polygons]:
-    """Overlay elements of the same region; those that were ``kept`` are their own parts."""
+    """Overlay elements of the same region; unchanged ones are common parts as they are."""
     kept_old, kept_new = kept
     mine, others = (
         np.setdiff1d(np.arange(len(side.elements)), kept)
@@ -155,9 +156,9 @@ def _overlaps(old: Manifold, new: Manifold, kept: tuple[Ints, Ints]) -> tuple[Re
 
 
 def _kept(old: Manifold, new: Manifold) -> tuple[Ints, Ints]:
-    """Old and new numbers (k,) of the elements that a change has left as they were.
+    """Old and new numbers (k,) of unchanged elements.
 
-    They are told by region, number of vertices, first vertex, centroid and area, to the last bit.
+    These have the same region, number of vertices, first vertex, centroid and area to the last bit.
     """
     rows = []
     for side in (old, new):
@@ -170,7 +171,7 @@ def _kept(old: Manifold, new: Manifold) -> tuple[Ints, Ints]:
         np.concatenate(rows), axis=0, return_inverse=True, return_counts=True
     )
     which, n = which.ravel(), len(old.elements)
-    # Once in the old manifold and once in the new one; a key that either has twice tells nothing.
+    # Only keys that occur exactly once in each manifold identify an element.
     once = np.bincount(which[:n], minlength=len(count)) == 1
     place = np.full(len(count), -1, dtype=np.int64)
     place[which[:n]] = np.arange(n)
@@ -180,7 +181,7 @@ def _kept(old: Manifold, new: Manifold) -> tuple[Ints, Ints]:
 
 
 def _along(old: Manifold, new: Manifold) -> Relation:
-    """Boundary edges of the same region that lie on each other and have the same sense."""
+    """Boundary edges of the same region that lie on each other, in the same direction."""
     a, b = old.boundary, new.boundary
     near = SAME_EDGE * float(np.hypot(*np.ptp(old.elements.points, axis=0)))
     first, second = (
@@ -195,7 +196,7 @@ def _along(old: Manifold, new: Manifold) -> Relation:
 
 
 def _common(a: BoundaryEdges, one: Ints, b: BoundaryEdges, other: Ints, near: float) -> Floats:
-    """Length (k,) that edges ``one`` of ``a`` have in common with edges ``other`` of ``b``."""
+    """Common length (k,) of edges ``one`` of ``a`` and edges ``other`` of ``b`` (m)."""
     way = a.end[one] - a.start[one]
     length = np.hypot(*way.T)
     along = way / length[:, None]
@@ -207,7 +208,7 @@ def _common(a: BoundaryEdges, one: Ints, b: BoundaryEdges, other: Ints, near: fl
 
 
 def _incidence(manifold: Manifold) -> csr_array:
-    """Ones (E, C) where an element has a cover."""
+    """Incidence matrix (E, C) of elements and covers."""
     elements, covers = [], []
     for group in manifold.groups:  # a handful of groups
         cover = np.searchsorted(manifold.cover_offset, group.unknowns, side="right") - 1

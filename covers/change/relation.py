@@ -1,4 +1,4 @@
-"""Kin by what they have in common: many old things may have left it to many new ones."""
+"""Weighted many-to-many relations between old and new things."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,16 +11,16 @@ from integration.arrays import Floats, Ints
 
 @dataclass(frozen=True)
 class Relation:
-    """Pairs of kin.
+    """Pairs of a parent and a child, with the measure of what they have in common.
 
     Attributes
     ----------
     parent, child
-        (k,) numbers among the old and the new.
+        (k,) numbers of old and new things.
     common
-        (k,) what they have in common: an area (m2) or a length (m).
+        (k,) common area (m2) or length (m).
     n_parents, n_children
-        How many old and new ones there are.
+        Number of old and of new things.
     """
 
     parent: Ints
@@ -31,22 +31,22 @@ class Relation:
 
     @cached_property
     def matrix(self) -> csr_array:
-        """What they have in common as a matrix (n_parents, n_children)."""
+        """The common measures as a matrix (n_parents, n_children)."""
         place = (self.parent, self.child)
         return csr_array(coo_array((self.common, place), shape=(self.n_parents, self.n_children)))
 
     @cached_property
     def main(self) -> Ints:
-        """(n_children,) the parent with which each child has most in common, -1 without any."""
+        """(n_children,) parent with the largest common measure; -1 without any."""
         found = np.full(self.n_children, -1, dtype=np.int64)
         order = np.lexsort((-self.parent, self.common))
         found[self.child[order]] = self.parent[order]
         return found
 
     def mean(self, values: Floats, fallback: Floats) -> Floats:
-        """Means (n_children, ...) over parents of ``values`` (n_parents, ...) by the common part.
+        """Return means (n_children, ...) over parents of ``values`` (n_parents, ...), weighted.
 
-        Children without parents have those of ``fallback`` (n_children, ...).
+        Children without parents take ``fallback`` (n_children, ...).
         """
         flat = np.asarray(values, dtype=float).reshape(self.n_parents, -1)
         total = np.bincount(self.child, self.common, minlength=self.n_children)
@@ -58,7 +58,7 @@ class Relation:
         )
 
     def gathered(self, of: tuple[Ints, Ints], sizes: tuple[int, int]) -> "Relation":
-        """Return the relation of what parents and children are parts ``of``."""
+        """Return the relation of the wholes that parents and children are parts ``of``."""
         parent, child = of[0][self.parent], of[1][self.child]
         pairs, which = np.unique(parent * sizes[1] + child, return_inverse=True)
         common = np.bincount(which, self.common, minlength=len(pairs))
@@ -66,7 +66,7 @@ class Relation:
 
 
 def identity(measure: Floats) -> Relation:
-    """Each the only child of its only parent; ``measure`` (n,) is their size."""
+    """Return the identity: each is the only child of its only parent, of ``measure`` (n,)."""
     n = len(measure)
     every = np.arange(n, dtype=np.int64)
     return Relation(every, every, measure, n, n)

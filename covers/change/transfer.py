@@ -1,11 +1,11 @@
-"""Displacement fields from one manifold to the next: least squares at points both can evaluate.
+"""Transfer of displacement fields from one manifold to the next by least squares.
 
-Old and new functions meet at Gauss points of the parts that old and new elements have in common,
-so that integrals of products of polynomials are exact whatever the cells. Rates are the field
-nearest in the mean square. Displacements have the strains nearest in energy, and the mean rigid
-motion of the old ones: stress of the new field balances the same loads on the new functions, no
-energy is made, and a rigid motion or a field that the new functions hold is carried exactly.
-Unknowns that are inherited stay, and fields are solved for where there are others.
+Old and new functions are evaluated at Gauss points of the common parts of old and new elements, so
+that integrals of products of polynomials are exact for any meshes. Velocities and accelerations are
+projected in the mean square (L2). Displacements are projected in the energy of strains, with the
+mean rigid motion of the old field: the stress of the new field balances the same loads on the new
+functions, energy does not grow, and a rigid motion or any field in the new space is reproduced
+exactly. Inherited unknowns are copied, and the others are solved for.
 """
 
 from dataclasses import dataclass
@@ -21,32 +21,32 @@ from covers.change.parentage import Parentage
 from integration.arrays import Bools, Floats, Ints
 from integration.rules import polygon_rule
 
-# Degree to which fields are integrated on elements with singular functions.
+# Degree of the quadrature on elements with singular functions.
 SINGULAR = 8
-# Share of the mass, in units of the stiffness, that makes rigid motions unique where strains are
-# matched; it is taken out again.
+# Share of the mass, scaled to the stiffness, that makes rigid motions unique in the projection of
+# strains; iteration removes its effect.
 MADE_UNIQUE = 1e-8
 
 
 @dataclass(frozen=True)
 class Transfer:
-    """Fields of an old manifold on a new one.
+    """Transfer of fields from an old manifold to a new one.
 
     Attributes
     ----------
     kin
         The two manifolds.
     elements
-        (2, Q) old and new element of each point.
+        (2, Q) old and new element of each quadrature point.
     points
-        (Q, 2) reference coordinates.
+        (Q, 2) reference coordinates of the points (m).
     area
-        (Q,) share of each point (m2).
+        (Q,) quadrature weights (m2).
     weight
-        (Q,) the same times the density of the old element.
+        (Q,) quadrature weights times the density of the old element (kg/m).
     inherited
-        (n,) old unknown that each new one takes over, -1 for those that are solved for; points
-        lie where there are such.
+        (n,) old unknown of each new one; -1 for those that are solved for, in whose support the
+        points lie.
     """
 
     kin: Parentage
@@ -58,9 +58,10 @@ class Transfer:
 
     @classmethod
     def of(cls, kin: Parentage, density: Floats, inherited: Ints | None = None) -> "Transfer":
-        """Lay the points; ``density`` (E,) of the old elements weighs the mean square.
+        """Return the transfer between two manifolds.
 
-        All unknowns are solved for unless some are ``inherited`` (n,).
+        ``density`` (E,) of the old elements weights the mean square (kg/m3). All unknowns are
+        solved for unless some are ``inherited`` (n,).
         """
         taken = np.full(kin.new.n_unknowns, -1) if inherited is None else inherited
         wanted = _holding(kin.new, taken < 0)[kin.elements.child]
@@ -82,7 +83,7 @@ class Transfer:
         return self.kin.new.rows(self.elements[1], self.points)
 
     def rates(self, unknowns: Floats) -> Floats:
-        """Unknowns (n,) of the new field nearest to the old one in the mean square."""
+        """Return the unknowns (n,) of the new field nearest to the old one in the mean square."""
         found = self._given(unknowns)
         if not self._free.any():
             return found
@@ -92,29 +93,29 @@ class Transfer:
         return found
 
     def _given(self, unknowns: Floats) -> Floats:
-        """Return what is inherited (n,), zero elsewhere."""
+        """Inherited unknowns (n,), zero elsewhere."""
         return np.where(self._free, 0.0, unknowns[np.maximum(self.inherited, 0)])
 
     @cached_property
     def _free(self) -> Bools:
-        """(n,) unknowns that are solved for."""
+        """(n,) whether an unknown is solved for."""
         return self.inherited < 0
 
     @cached_property
     def loose(self) -> Bools:
-        """(B,) bodies that inherit nothing: their place is known by their mean motion alone."""
+        """(B,) whether a body inherits nothing, so that its mean motion determines its place."""
         body = np.repeat(self.kin.new.cover_body, np.diff(self.kin.new.cover_offset))
         n = self.kin.new.n_bodies
         return np.asarray(np.bincount(body[~self._free], minlength=n) == 0)
 
     def _among(self, matrix: csc_array) -> csc_array:
-        """Rows and columns of a matrix (n, n) of the unknowns that are solved for."""
+        """Submatrix of a matrix (n, n) for the unknowns that are solved for."""
         return csc_array(matrix[self._free][:, self._free])
 
     def deformation(self, unknowns: Floats, elasticity: Floats) -> Floats:
-        """Unknowns (n,) of the new field with the nearest strains and the same rigid motion.
+        """Return the unknowns (n,) of the new field of nearest strains, and the same rigid motion.
 
-        ``elasticity`` (E, 3, 3) of the old elements says what is near.
+        ``elasticity`` (E, 3, 3) of the old elements is the norm of strains (Pa).
         """
         found, free = self.rates(unknowns), self._free
         if not free.any():
@@ -127,7 +128,7 @@ class Transfer:
         side = strain.T @ stress.ravel() - weighty @ np.where(free, 0.0, found)
         matrix, mass = self._among(weighty), self._among(self._mass)
         stiff, heavy = matrix.diagonal().sum(), mass.diagonal().sum()
-        if not stiff > 0:  # no material that both have is strained
+        if not stiff > 0:  # no common material has strain
             return found
         held = NormalEquations(csc_array(matrix + MADE_UNIQUE * stiff / heavy * mass))
         start = found[free]
@@ -135,7 +136,7 @@ class Transfer:
         return found
 
     def sums(self, values: Floats) -> Floats:
-        """Sums (B, ...) of values (Q, ...) at the points over the new bodies, by weight."""
+        """Return weighted sums (B, ...) over the new bodies of values (Q, ...) at the points."""
         body = self.kin.new.element_body[self.elements[1]]
         flat = self.weight[:, None] * values.reshape(len(values), -1)
         n = self.kin.new.n_bodies
@@ -156,7 +157,7 @@ class Transfer:
         return csc_array(self._values.T @ _scaled(self._values, weight))
 
     def _without_rigid(self, free: Floats) -> Floats:
-        """Take the mean rigid motion of every loose body out of what is solved for."""
+        """Remove the mean rigid motion of bodies that inherit nothing from the free unknowns."""
         if not self.loose.any():
             return free
         unknowns = np.zeros(len(self._free))
@@ -167,7 +168,7 @@ class Transfer:
         return np.asarray((unknowns - modes @ motion)[self._free])
 
     def _strain_rows(self, side: int) -> "_StrainRows":
-        """Strains (xx, yy, 2 xy) at the points by the unknowns of one manifold."""
+        """Rows of the strains (xx, yy, 2 xy) at the points in the unknowns of one manifold."""
         index, g = self._sides[side].gradient_rows(self.elements[side], self.points)
         if not len(g):  # no material in common
             return _StrainRows(index, np.zeros((0, 3, index.shape[1])))
@@ -195,7 +196,7 @@ class _StrainRows:
 
 
 def _rule(kin: Parentage, parts: Ints, order: int) -> tuple[Ints, Floats, Floats]:
-    """Old and new elements (Q, 2), points (Q, 2) and areas (Q,) on some of the common parts."""
+    """Old and new elements (Q, 2), points (Q, 2) and weights (Q,) on some common parts."""
     rule = polygon_rule(kin.pieces.take(parts), order)
     owner = parts[rule.owner]
     pair = np.stack([kin.elements.parent[owner], kin.elements.child[owner]], axis=1)
@@ -203,7 +204,7 @@ def _rule(kin: Parentage, parts: Ints, order: int) -> tuple[Ints, Floats, Floats
 
 
 def _holding(manifold: Manifold, unknowns: Bools) -> Bools:
-    """Elements (E,) with functions of any of some unknowns (n,)."""
+    """Which elements (E,) have functions of any of the given unknowns (n,)."""
     found = np.zeros(len(manifold.elements), dtype=bool)
     for group in manifold.groups:  # a handful of groups
         found[group.elements] = unknowns[group.unknowns].any(axis=1)
@@ -211,7 +212,7 @@ def _holding(manifold: Manifold, unknowns: Bools) -> Bools:
 
 
 def _rough(manifold: Manifold) -> Bools:
-    """Elements (E,) with singular functions."""
+    """Which elements (E,) have singular functions."""
     found = np.zeros(len(manifold.elements), dtype=bool)
     for group in manifold.groups:  # a handful of groups
         found[group.elements] = (group.slots < 0).any()
@@ -219,7 +220,7 @@ def _rough(manifold: Manifold) -> Bools:
 
 
 def by_body(matrix: csr_array, sides: Floats) -> Floats:
-    """Solve systems of three equations a body, the diagonal blocks of ``matrix`` (3 B, 3 B)."""
+    """Solve the 3 x 3 systems of the bodies, the diagonal blocks of ``matrix`` (3 B, 3 B)."""
     n = len(sides) // 3
     entries = coo_array(matrix)
     row, column = entries.coords

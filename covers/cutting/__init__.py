@@ -1,4 +1,4 @@
-"""Geometry of a cut: cover, material and cracks give elements, physical covers, boundary and tips.
+"""Cutting of a cover by material and cracks: elements, physical covers, boundary and crack tips.
 
-No local functions.
+Local functions are not its concern.
 """

@@ -1,4 +1,4 @@
-"""Edges of bodies in reference coordinates: where contact, supports and loads act."""
+"""Boundary edges of bodies in reference coordinates, on which contact, supports and loads act."""
 
 from dataclasses import dataclass, field
 
@@ -10,16 +10,16 @@ from integration.polygons import Polygons
 
 @dataclass(frozen=True)
 class BoundaryEdges:
-    """Free or interface edges of bodies, the material on the left hand of start -> end.
+    """Boundary edges of bodies, with the material on the left of start -> end.
 
     Attributes
     ----------
     start, end
         (n, 2) reference coordinates.
     element, body
-        (n,) the element whose edge it is and the body it belongs to.
+        (n,) element and body of each edge.
     next, previous
-        (n,) the edges that follow and precede it along the body's boundary.
+        (n,) next and previous edge along the boundary of the body.
     """
 
     start: Floats
@@ -33,12 +33,12 @@ class BoundaryEdges:
         return len(self.element)
 
     def at(self, edge: Ints, parameter: Floats) -> Floats:
-        """Places (m, 2) in the reference on edges (m,), from 0 at their start to 1 at their end."""
+        """Return reference places (m, 2) on edges (m,) at parameters (m,) from 0 to 1."""
         return self.start[edge] + parameter[:, None] * (self.end[edge] - self.start[edge])
 
 
 def ring_edges(polygons: Polygons, body: Ints) -> BoundaryEdges:
-    """Return all edges of all rings as boundary: the case of one element a body."""
+    """Return all edges of all rings as boundary, for bodies of one element each."""
     follower = polygons.next_point
     previous = inverse(follower)
     element = polygons.polygon_of_point

@@ -1,9 +1,9 @@
-"""Closures: lines that only divide, drawn so that every face is a simple ring.
+"""Closures: auxiliary lines that make every face a simple polygon.
 
-A crack that ends inside a cell is continued straight to the next line, and what lies inside a
-cell without touching its edges (a hole, a block, a closed crack) is tied to the lines left and
-right of it. A closure is no discontinuity: the parts keep the same covers. It turns faces with
-slits and holes into plain polygons for moments, triangulation and drawing.
+A crack that ends inside a cell is extended straight to the next line, and what lies inside a cell
+without touching its edges (a hole, a block, a closed crack) is connected to the lines left and
+right of it. A closure is no discontinuity: the parts on both sides keep the same covers. It turns
+faces with slits and holes into simple polygons for moments, triangulation and drawing.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ from integration.arrays import Bools, Floats, Ints
 from integration.plane_vectors import cross
 
 TIP, LEFT, RIGHT, TOUCH = 0, 1, 2, 3
-# A closure that would end this near to a point, in parts of its length, ends in the point.
+# A closure that would end nearer to a point than this share of its length ends at the point.
 SNAP = 1e-3
 CLOSURE_PASSES = 30
 
 
 @dataclass(frozen=True)
 class _Rays:
-    """Rays from points (r,) of the graph, with directions (r, 2) and the reason for each."""
+    """Rays from points (r,) of the graph, with directions (r, 2) and the kind of each (r,)."""
 
     origin: Ints
     direction: Floats
@@ -40,17 +40,17 @@ class _Rays:
 def closed_faces(
     lines: Lines, sources: Sources, cells: Cells, resolution: Resolution, reach: float
 ) -> Faces:
-    """Return the faces between lines after closures make each a simple ring.
+    """Return the faces between lines, with closures that make each a simple polygon.
 
     Parameters
     ----------
     reach : float
-        greatest length of a closure: the largest diameter of a cell, m.
+        largest length of a closure, the largest diameter of a cell, m.
 
     Raises
     ------
     ValueError
-        No end after `CLOSURE_PASSES` passes.
+        Faces are not simple after `CLOSURE_PASSES` passes.
     """
     shot = np.empty(0, dtype=np.int64)
     for _ in range(CLOSURE_PASSES):  # one pass without tips and holes, two or three with them
@@ -69,7 +69,7 @@ def closed_faces(
 
 
 def _rays_of_blocks(faces: Faces) -> _Rays:
-    """Rays from ends of lines, and from the extremes of what hangs loose or on one thread."""
+    """Rays from free ends of lines, and from extreme points of components off the mesh."""
     half, edges = faces.half, faces.edges
     thread = half.loop[0::2] == half.loop[1::2]
     n = len(faces.steps)
@@ -80,7 +80,7 @@ def _rays_of_blocks(faces: Faces) -> _Rays:
     several = np.bincount(block, minlength=n)[block] > 1
 
     tip = (degree == 1) & ~anchored[block] & ~several
-    # Lines that lead out of all cells divide nothing there.
+    # Lines outside of all cells need no closure.
     outside = np.zeros(half.n_loops, dtype=bool)
     outside[half.loop[np.repeat(faces.on_mesh, 2)]] = True
     outside &= faces.cell < 0
@@ -105,14 +105,14 @@ def _sideways(steps: Floats, points: Ints, block: Ints, sign: float, kind: int) 
 
 
 def _rays_of_pinches(faces: Faces) -> _Rays:
-    """Rays from what touches the rim of its face in one point only."""
+    """Rays from parts that touch the boundary of their face at a single point."""
     half = faces.half
     material = (faces.cell >= 0) & (faces.region >= 0)
     member = np.flatnonzero(material[half.loop])
     key = half.loop[member] * len(faces.steps) + half.origin[member]
     once, number = np.unique(key, return_counts=True)
     rays = [_no_rays()]
-    for twice in once[number > 1].tolist():  # faces that touch themselves: next to none
+    for twice in once[number > 1].tolist():  # faces that touch themselves, which are rare
         loop, point = divmod(twice, len(faces.steps))
         visits = np.flatnonzero((half.loop == loop) & (half.origin == point))
         length = np.array([int((half.loop == loop).sum())])
@@ -130,7 +130,7 @@ def _rays_of_pinches(faces: Faces) -> _Rays:
 def _with_closures(
     lines: Lines, faces: Faces, rays: _Rays, resolution: Resolution, reach: float
 ) -> Lines:
-    """Lines with the rays that hit another line, drawn up to it."""
+    """Lines with closures along the rays that hit another line."""
     ray, edge, share, distance = _hits(faces, rays, reach)
     start, end = _ends(faces, edge)
     place = faces.steps[start] + share[:, None] * (faces.steps[end] - faces.steps[start])
@@ -144,7 +144,7 @@ def _with_closures(
 
 
 def _hits(faces: Faces, rays: _Rays, reach: float) -> tuple[Ints, Ints, Floats, Floats]:
-    """Ray, first edge that it hits, parameter on the edge, distance in steps; misses left out."""
+    """Rays that hit an edge: ray, first edge, parameter on the edge, distance in steps."""
     unit = rays.direction / np.hypot(*rays.direction.T)[:, None]
     begin = faces.steps[rays.origin]
     corners = np.stack([begin, begin + reach * unit], axis=1)
@@ -167,7 +167,7 @@ def _hits(faces: Faces, rays: _Rays, reach: float) -> tuple[Ints, Ints, Floats, 
 
 
 def _ends(faces: Faces, edge: Ints) -> tuple[Ints, Ints]:
-    """Ends (r,) of edges, the one further to the left first: no place hangs on their numbers."""
+    """Ends (r,) of edges, the left one first, so that results do not depend on numbering."""
     one, two = faces.edges[edge].T
     turned = (faces.steps[one] - faces.steps[two]) @ np.array([1.0, 1e-3]) > 0
     return np.where(turned, two, one), np.where(turned, one, two)

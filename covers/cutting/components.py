@@ -9,11 +9,12 @@ from integration.permutations import inverse
 
 
 def components(n: int, first: Ints, second: Ints) -> Ints:
-    """Connected component (n,) of each of ``n`` things, given pairs (p,) of connected ones.
+    """Return the connected component (n,) of each of ``n`` things, given connected pairs (p,).
 
-    Each thing points to a lower one or to itself. Roots that a pair joins are hooked, the higher to
-    the lower, and pointers followed to their ends, until no pair is apart: at each pass half of
-    the roots that have a neighbour go (Shiloach, Vishkin 1982).
+    Each thing points to a lower one or to itself. Of two roots that a pair connects the higher is
+    hooked to the lower, and pointers are followed to their ends, until all pairs are in one
+    component. Each pass removes at least half of the roots with neighbours (Shiloach and Vishkin
+    1982).
     """
     root = np.arange(n)
     one, two = first, second
@@ -28,8 +29,8 @@ def components(n: int, first: Ints, second: Ints) -> Ints:
 
 
 def _ends(pointer: Ints) -> Ints:
-    """Where pointers (n,) that lead to lower places end."""
-    while True:  # each pass doubles the way
+    """Ends (n,) of chains of pointers (n,) to lower places."""
+    while True:  # each pass doubles the length followed
         further = pointer[pointer]
         if (further == pointer).all():
             return pointer
@@ -37,7 +38,7 @@ def _ends(pointer: Ints) -> Ints:
 
 
 def unique_rows(points: Floats) -> tuple[Ints, Ints]:
-    """First occurrences (k,) of the distinct rows of points (n, 2), in order, and each row (n,)."""
+    """Return first occurrences (k,) of distinct points (n, 2), and the number (n,) of each."""
     order = np.lexsort((points[:, 1], points[:, 0]))
     ordered = points[order]
     new = np.ones(len(points), dtype=bool)
@@ -48,7 +49,7 @@ def unique_rows(points: Floats) -> tuple[Ints, Ints]:
 
 
 def by_first_occurrence(group: Ints, first: Ints) -> tuple[Ints, Ints]:
-    """Groups (n,) renumbered in the order of their first members (k,): first members, groups."""
+    """Renumber groups (n,) by their first members (k,); return first members and groups."""
     order = np.argsort(first)
     rank = inverse(order)
     return first[order], rank[group]

@@ -1,4 +1,4 @@
-"""Physical covers: the connected parts of each patch, found over the whole mesh at once."""
+"""Physical covers: the connected parts of each patch, found for the whole mesh at once."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from integration.polygons import Polygons
 
 @dataclass(frozen=True)
 class Joins:
-    """Pairs of elements that share an interval of an edge with no discontinuity along it.
+    """Pairs of elements that share a part of an edge without a discontinuity.
 
     Attributes
     ----------
     first, second : (n,)
         elements.
     start, end : (n, 2)
-        ends of the interval, m.
+        ends of the shared part, m.
     """
 
     first: Ints = field(metadata=numbers("element"))
@@ -56,7 +56,7 @@ class CoverParts:
 
 
 def bodies(n: int, region: Ints, joins: Joins) -> Ints:
-    """Connected body (n,) of each element, in the order of regions, then of first elements."""
+    """Return the connected body (n,) of each element, by region, then by first element."""
     part = components(n, joins.first, joins.second)
     first = np.unique(part, return_index=True)[1]
     rank = np.empty(len(first), dtype=np.int64)
@@ -69,21 +69,21 @@ def physical_covers(
 ) -> CoverParts:
     """Return the connected parts of all patches.
 
-    Two elements of a patch hang together when they share an interval of an edge inside the patch
-    (`Joins`); contact in a vertex does not connect.
+    Two elements of a patch are connected if they share a part of an edge inside the patch
+    (`Joins`); a common vertex does not connect.
 
     Parameters
     ----------
     cell, region : (E,)
         cell and region of each element.
     touched : (C,)
-        cells met by boundaries or cracks. A patch without such a cell is one part.
+        cells that boundaries or cracks touch. A patch without such a cell is one part.
     """
     patches = cover.cell_patches[cell]
     if cover.disc_radius is not None:
         patches = _reached(cover, elements, patches, touched[cell])
     n, k = patches.shape
-    doubtful = np.zeros(cover.n_patches + 1, dtype=bool)  # the last place serves for -1
+    doubtful = np.zeros(cover.n_patches + 1, dtype=bool)  # the last entry is for -1
     doubtful[cover.cell_patches[touched]] = True
     doubtful[-1] = False
     one, two = _shared_patches(cover, patches, joins, doubtful)
@@ -98,7 +98,7 @@ def physical_covers(
 def _shared_patches(
     cover: Cover, patches: Ints, joins: Joins, doubtful: Bools
 ) -> tuple[Ints, Ints]:
-    """Places ``element * k + slot`` of one patch on both sides of a join."""
+    """Pairs of ``element * k + slot`` of the same patch on both sides of a join."""
     k = patches.shape[1]
     asked: Bools = np.asarray(doubtful[patches].any(axis=1))
     joins = joins.take(asked[joins.first] & asked[joins.second])
@@ -114,7 +114,7 @@ def _shared_patches(
 
 
 def _reached(cover: Cover, elements: Polygons, patches: Ints, cut: Bools) -> Ints:
-    """Patches of each element, -1 where a disc of the cell does not reach the element."""
+    """Patches of each element; -1 where the disc does not meet the element."""
     assert cover.disc_radius is not None
     row, slot = np.nonzero((patches >= 0) & cut[:, None])
     patch = patches[row, slot]
@@ -133,7 +133,7 @@ def _segment_distance(start: Floats, end: Floats, points: Floats) -> Floats:
 
 
 def _numbered(key: Ints, patches: Ints) -> CoverParts:
-    """Physical covers from one key for each, in the order of patches, then of first elements."""
+    """Number physical covers, given a key for each, by patch, then by first element."""
     distinct, first, part = np.unique(key, return_index=True, return_inverse=True)
     part = part.reshape(key.shape)
     k = key.shape[1]

@@ -1,4 +1,4 @@
-"""Cracks and joints as polylines, settled on what they nearly touch."""
+"""Cracks and joints as polylines, snapped to what they nearly touch."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from integration.arrays import Floats, Ints
 
 
 def crack_segments(cracks: Sequence[npt.ArrayLike]) -> Segments:
-    """Segments of polylines, each an array (n, 2) of points.
+    """Return the segments of polylines, each an array (n, 2) of points (m).
 
     Raises
     ------
     ValueError
-        A crack of fewer than two distinct points, of another shape, or not finite.
+        A crack has fewer than two distinct points, another shape, or is not finite.
     """
     lines = [_polyline(crack, number) for number, crack in enumerate(cracks)]
     if not lines:
@@ -30,7 +30,7 @@ def crack_segments(cracks: Sequence[npt.ArrayLike]) -> Segments:
 
 
 def clipped(segments: Segments, low: Floats, high: Floats) -> Segments:
-    """The parts of segments inside a box (Liang and Barsky 1984); ends inside stay as they are.
+    """Return the parts of segments inside a box (Liang and Barsky 1984); inner ends stay exact.
 
     ``low`` and ``high`` (2,) are corners of the box, m.
     """
@@ -50,12 +50,12 @@ def clipped(segments: Segments, low: Floats, high: Floats) -> Segments:
 def settled(
     cracks: Segments, boundary: Segments, vertices: Floats, edges: Segments, tolerance: float
 ) -> Segments:
-    """Cracks moved by at most ``tolerance`` (m) onto what they nearly touch.
+    """Return cracks moved by at most ``tolerance`` (m) onto what they nearly touch.
 
-    Ends and kinks nearer than the tolerance to a corner of a region, a vertex of the mesh or one
-    another become one with it, else with the nearest place of a boundary or mesh edge. Then
-    segments that pass such a point within the tolerance are bent to pass through it. What is
-    farther away stays exactly where it is.
+    Ends and kinks within the tolerance of a corner of a region, a vertex of the mesh or each other
+    are moved to it; else to the nearest place of a boundary or mesh edge within the tolerance. Then
+    segments that pass such a point within the tolerance are bent to pass through it. All else stays
+    exactly as it is.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def _settled_points(
 
     places = points.copy()
     loose = np.ones(len(points), dtype=bool)
-    for targets in (boundary.start, vertices):  # corners of regions go before those of the mesh
+    for targets in (boundary.start, vertices):  # corners of regions have priority over the mesh
         if len(targets):
             distance, nearest = cKDTree(targets).query(places, distance_upper_bound=tolerance)
             found = loose & np.isfinite(distance)
@@ -99,7 +99,7 @@ def _settled_points(
 def _clustered(
     places: Floats, loose: npt.NDArray[np.bool_], tolerance: float
 ) -> tuple[Floats, npt.NDArray[np.bool_]]:
-    """Points nearer than the tolerance to one another as one point: a settled one, or the first."""
+    """Merge points within the tolerance of each other: to one already moved, or to the first."""
     from scipy.spatial import cKDTree
 
     pairs = cKDTree(places).query_pairs(tolerance, output_type="ndarray").reshape(-1, 2)
@@ -110,7 +110,7 @@ def _clustered(
 
 
 def _feet(points: Floats, segments: Segments, tolerance: float) -> tuple[Ints, Floats]:
-    """Rows of points within the tolerance of a segment, and their nearest places on segments."""
+    """Rows of points within the tolerance of a segment, and the nearest places on segments."""
     if not (len(points) and len(segments)):
         return np.empty(0, dtype=np.int64), np.empty((0, 2))
     row, segment = shapely.STRtree(segments.lines()).query(
@@ -125,7 +125,7 @@ def _feet(points: Floats, segments: Segments, tolerance: float) -> tuple[Ints, F
 
 
 def _bent(cracks: Segments, stops: Floats, tolerance: float) -> Segments:
-    """Segments led through all stops that they pass within the tolerance."""
+    """Bend segments to pass through all points (``stops``) within the tolerance."""
     kept = (cracks.start != cracks.end).any(axis=1)
     cracks = cracks.take(kept)
     segment, stop = shapely.STRtree(np.asarray(shapely.points(stops))).query(

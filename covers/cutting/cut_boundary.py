@@ -1,4 +1,4 @@
-"""Boundaries of cut bodies: outer edges, interfaces, both faces of cracks; and crack tips."""
+"""Boundary of cut bodies (outer edges, interfaces, both faces of cracks) and crack tips."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ class CutBoundary(BoundaryEdges):
     Attributes
     ----------
     crack
-        (n,) crack whose face the edge is, or -1 on the boundary of the region.
+        (n,) crack of which the edge is a face; -1 on the boundary of the region.
     opposite
-        (n,) the edge with the same ends on the other side of a crack or of the interface with
-        another region, or -1.
+        (n,) edge with the same ends on the other side of a crack or of an interface with another
+        region; -1 without one.
     """
 
     crack: Ints
@@ -32,18 +32,18 @@ class CutBoundary(BoundaryEdges):
 
 @dataclass(frozen=True)
 class CrackTips:
-    """Ends of cracks inside bodies.
+    """Crack tips inside bodies.
 
     Attributes
     ----------
     point
         (n, 2) tips, m.
     direction
-        (n, 2) unit vectors along which the cracks would go on.
+        (n, 2) unit vectors ahead of the cracks.
     element
         (n,) element ahead of each tip.
     crack
-        (n,) crack that ends there.
+        (n,) crack of each tip.
     """
 
     point: Floats
@@ -58,18 +58,18 @@ class CrackTips:
 def boundary_of(
     faces: Faces, pieces: Pieces, group: Ints, part: bool
 ) -> tuple[CutBoundary, CrackTips]:
-    """Return the boundary edges of a layer, bodies still to be filled in, and its crack tips.
+    """Return the boundary edges of a layer, with bodies yet to be filled in, and its crack tips.
 
     Parameters
     ----------
     part : bool
-        whether the faces are those of a part of the cells: what follows an edge may then be missing
-        at its rim, -1.
+        whether the faces are those of a part of the cells only: at its rim links may then be
+        missing, -1.
 
     Raises
     ------
     ValueError
-        A boundary that cannot be followed.
+        A boundary is not closed.
     """
     half = faces.half
     element = pieces.of_loop[half.loop]
@@ -101,11 +101,11 @@ def boundary_of(
 
 
 def _next_on_rim(faces: Faces, rim: Ints, is_rim: Bools, part: bool) -> Ints:
-    """Following edge of the boundary: turn about the head through joined faces."""
+    """Next edge of the boundary: turn about the head through joined faces."""
     half = faces.half
     following = half.next[rim]
     first, inner = following.copy(), np.flatnonzero(~is_rim[following])
-    while len(inner):  # passes over all edges at once, as many as faces about a point
+    while len(inner):  # as many passes as faces about a point
         following[inner] = half.next[following[inner] ^ 1]
         round_about = inner[following[inner] == first[inner]]
         if len(round_about) and not part:
@@ -120,7 +120,7 @@ def _next_on_rim(faces: Faces, rim: Ints, is_rim: Bools, part: bool) -> Ints:
 
 
 def _tips(faces: Faces, element: Ints, rim: Ints, crack: Ints) -> CrackTips:
-    """Points where one crack face edge ends and no other boundary passes."""
+    """Points at which a single edge of a crack ends and no other boundary passes."""
     half, n = faces.half, len(faces.steps)
     cracked = rim[crack[rim] >= 0]
     once = cracked[cracked % 2 == 0]
@@ -141,14 +141,14 @@ def _tips(faces: Faces, element: Ints, rim: Ints, crack: Ints) -> CrackTips:
 
 
 def _sectors(faces: Faces, points: Ints, direction: Floats) -> Ints:
-    """Half-edge out of each point whose face holds the direction."""
+    """Half-edge from each point whose face contains the direction."""
     half = faces.half
     row = np.full(len(faces.steps), -1, dtype=np.int64)
     row[points] = np.arange(len(points))
     out = np.flatnonzero(row[half.origin] >= 0)
     tip = row[half.origin[out]]
     wanted = np.arctan2(direction[tip, 1], direction[tip, 0])
-    # A closure ahead of the tip has the direction itself up to rounding: count it as before.
+    # A closure ahead of the tip has the same direction up to rounding: count it as before.
     turn = np.mod(wanted - half.angle[out] + 1e-9, 2 * np.pi)
     order = np.lexsort((turn, tip))
     return out[order[np.unique(tip[order], return_index=True)[1]]]

@@ -1,4 +1,4 @@
-"""The result of a cut: elements, physical covers, boundary and tips over all layers of regions."""
+"""The result of a cut: elements, physical covers, boundary and crack tips of all layers."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ from covers.mathematical.base import Cover
 from integration.arrays import Bools, Ints
 from integration.polygons import Polygons
 
-# Part of a region's area, and strip along its boundary in steps, that may stay uncovered.
+# Uncovered area of a region that is rounding: a share of its area, and a strip along its boundary
+# in steps of the resolution.
 UNCOVERED = 1e-9
 RIM = 8
 
@@ -32,28 +33,28 @@ class CutCells:
         E elements, one simple counter-clockwise ring each, in the cover's coordinates. Elements of
         one cell with equal covers are parts of one manifold element, divided by a closure.
     element_cell, element_region, element_body : (E,)
-        cell, region, and connected piece of material of each element. Bodies are numbered in the
-        order of regions: without cracks body b is region b when every region is connected.
+        cell, region, and body (connected part of the material) of each element. Bodies are numbered
+        in the order of regions: without cracks, body b is region b if every region is connected.
     element_whole : (E,)
         whether the element is its cell, corner by corner in the cell's order: with
         ``cover.cell_shape`` this says which elements are congruent.
     covers : (E, k)
-        physical covers of each element in the order of ``cover.cell_patches``; -1 fills up rows of
+        physical covers of each element in the order of ``cover.cell_patches``; padded with -1 for
         meshless covers.
     cover_patch, cover_region, cover_body : (P,)
         patch, region (of the first element) and body of each physical cover, ordered by patch.
     boundary : CutBoundary
-        edges of all bodies, faces of cracks included, the material on the left hand.
+        edges of all bodies, crack faces included, with the material on their left.
     tips : CrackTips
-        ends of cracks inside bodies.
+        crack tips inside bodies.
     joins : Joins
-        pairs of elements that share an interval of an edge which nothing parts.
+        pairs of elements that share a part of an edge without a discontinuity.
     step : float
-        resolution: points and lines nearer than this are one, m.
+        resolution: points and lines nearer to each other than this are merged, m.
     crack_tolerance : float
-        greatest distance by which cracks were moved onto vertices and lines, m.
+        largest distance by which cracks may be moved onto vertices and lines, m.
     slivers, sliver_area
-        number and total area (m2) of faces below the smallest area, left out.
+        number and total area (m2) of the faces left out because they are too small.
     """
 
     elements: Polygons
@@ -80,13 +81,13 @@ class CutCells:
 
     @property
     def n_bodies(self) -> int:
-        """Number of connected pieces of material."""
+        """Number of bodies."""
         return int(self.element_body.max(initial=-1)) + 1
 
 
 @dataclass(frozen=True)
 class Layer:
-    """What the cut of one layer of regions gives; elements are numbered within it."""
+    """The cut of one layer of regions; elements are numbered within it."""
 
     pieces: Pieces
     joins: Joins
@@ -98,7 +99,7 @@ class Layer:
 def assembled(
     cover: Cover, domain: Domain, layers: list[Layer], resolution: Resolution, moved: float
 ) -> CutCells:
-    """All layers as one: elements one after the other, then covers and bodies over all."""
+    """Merge all layers: elements one after the other, then covers and bodies of all."""
     pieces = [layer.pieces for layer in layers]
     elements = Polygons.concatenate([part.elements for part in pieces])
     cell = np.concatenate([part.cell for part in pieces])

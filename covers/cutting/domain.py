@@ -1,4 +1,4 @@
-"""The material to be cut: regions, which of them share covers, and lines as segments."""
+"""The material to be cut: regions, their groups and layers, and lines as segments."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from integration.polygons import Polygons
 
 @dataclass(frozen=True)
 class Segments:
-    """Straight pieces of lines with the line each belongs to.
+    """Straight segments of lines.
 
     Attributes
     ----------
     start, end : (n, 2)
-        end points, m; neighbours on a line have bit-identical ends.
+        end points, m; neighbours on a line have identical ends.
     owner : (n,)
-        region or crack.
+        region or crack of each.
     """
 
     start: Floats
@@ -52,9 +52,9 @@ class Domain:
     shapes : (R,)
         the same as shapely polygons.
     group : (R,)
-        regions of one number share physical covers across common boundaries.
+        regions of the same number share physical covers across common boundaries.
     layer : (R,)
-        regions of one layer do not overlap.
+        layer of each region; regions of a layer do not overlap.
     """
 
     regions: Polygons
@@ -66,7 +66,7 @@ class Domain:
         return len(self.regions)
 
     def boundary(self, layer: int) -> Segments:
-        """Boundaries of the regions of a layer, the material on the left hand."""
+        """Boundaries of the regions of a layer, with the material on their left."""
         polygons = self.regions
         chosen = (self.layer == layer)[polygons.polygon_of_point]
         start, end = polygons.points, polygons.points[polygons.next_point]
@@ -79,19 +79,19 @@ def domain_of(
     glue: npt.ArrayLike | None,
     rounding: float,
 ) -> Domain:
-    """Check regions and sort them into layers without overlap.
+    """Check regions and divide them into layers without overlap.
 
     Parameters
     ----------
     glue : (R,), optional
-        regions of one number share physical covers; every region alone when omitted.
+        regions of the same number share physical covers; by default none do.
     rounding : float
-        thickness of an overlap that is rounding, m.
+        thickness of an overlap up to which it is rounding, m.
 
     Raises
     ------
     ValueError
-        A region without area or that crosses itself, or an overlap of regions glued together.
+        A region has no area or crosses itself, or regions that share covers overlap.
     """
     polygons = regions if isinstance(regions, Polygons) else Polygons.from_shapely(regions)
     polygons = polygons.oriented()
@@ -114,7 +114,7 @@ def domain_of(
 
 
 def _valid_shapes(polygons: Polygons, rounding: float) -> npt.NDArray[np.object_]:
-    """Regions as valid shapely polygons; vertices that differ by rounding are one."""
+    """Regions as valid shapely polygons; vertices that differ by rounding are merged."""
     shapes = polygons.to_shapely()
     flat = np.flatnonzero(polygons.areas <= rounding * shapely.length(shapes))
     if len(flat):
@@ -134,10 +134,10 @@ def _valid_shapes(polygons: Polygons, rounding: float) -> npt.NDArray[np.object_
 
 
 def _overlaps(shapes: npt.NDArray[np.object_], rounding: float) -> Ints:
-    """Pairs (n, 2) of regions that overlap in more than a strip of rounding."""
+    """Pairs (n, 2) of regions that overlap by more than rounding."""
     one, two = shapely.STRtree(shapes).query(shapes, predicate="intersects")
     one, two = one[one < two], two[one < two]
-    # On a grid: without one GEOS may give a whole polygon for two that touch up to rounding.
+    # With a grid size, as GEOS may return a whole polygon for two that touch up to rounding.
     common = shapely.intersection(shapes[one], shapes[two], grid_size=rounding)
     area = np.asarray(shapely.area(common))
     length = np.minimum(shapely.length(shapes[one]), shapely.length(shapes[two]))

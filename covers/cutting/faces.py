@@ -1,4 +1,4 @@
-"""The faces between noded lines: the cell and the region that each of them lies in."""
+"""The faces between noded lines, with the cell and the region of each."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ MESH, BOUNDARY, CRACK = 0, 1, 2
 
 @dataclass(frozen=True)
 class Sources:
-    """What the lines of an arrangement are: mesh edges, boundaries of regions, cracks.
+    """The kinds of the lines of an arrangement: mesh edges, boundaries of regions, cracks.
 
     Attributes
     ----------
     kind, owner : (S,)
-        `MESH`, `BOUNDARY` or `CRACK`, and the mesh edge, region or crack.
+        `MESH`, `BOUNDARY` or `CRACK`, and the number of the mesh edge, region or crack.
     """
 
     kind: Ints
@@ -31,16 +31,16 @@ class Sources:
 
 @dataclass(frozen=True)
 class Cells:
-    """What is known of the cells before lines are cut.
+    """The cells before lines are cut.
 
     Attributes
     ----------
     edges : MeshEdges
         edges of the mesh of cells.
     touched : (C,)
-        cells whose edges are among the lines.
+        whether the edges of the cell are among the lines.
     region : (C,)
-        region that holds the middle of each cell, or -1.
+        region that contains the middle of each cell, or -1.
     """
 
     edges: MeshEdges
@@ -49,7 +49,7 @@ class Cells:
 
     @property
     def whole(self) -> Bools:
-        """Cells (C,) inside a region and away from all lines."""
+        """(C,) whether the cell is inside a region and away from all lines."""
         return ~self.touched & (self.region >= 0)
 
 
@@ -60,21 +60,21 @@ class Faces:
     Attributes
     ----------
     steps, points : (V, 2)
-        the graph's points in steps and in m.
+        points of the graph in steps and in m.
     edges : (n, 2)
         edges between points.
     half : HalfEdges
-        their half-edges; each loop is a face, or the rim of a group of lines seen from outside.
+        their half-edges; each loop is a face, or the outer rim of a connected group of lines.
     on_mesh : (n,)
         whether the edge lies on a mesh edge.
     crack : (n,)
-        crack that runs along the edge, or -1.
+        crack along the edge, or -1.
     closure : (n,)
-        whether the edge lies on no line at all: it only divides a face.
+        whether the edge is a closure, on no line.
     side : (2 n,)
-        for edges of the mesh, the cell on the left hand; else -1.
+        cell on the left of half-edges of the mesh; else -1.
     cell, region : (loops,)
-        touched cell and region of each face; -1 for what is no face of a touched cell or outside.
+        touched cell and region of each face; -1 outside, and for loops that are no faces.
     """
 
     steps: Floats
@@ -121,7 +121,7 @@ def faces_of(lines: Lines, sources: Sources, cells: Cells) -> Faces:
 
 
 def _material_on_the_left(n: int, along: Ints, region: Ints) -> Ints:
-    """Region (2 n,) whose boundary runs along each half-edge more often than back, or -1."""
+    """Region (2 n,) whose boundary follows each half-edge more often than its opposite, or -1."""
     regions = int(region.max(initial=0)) + 1
     key, group = np.unique((along // 2) * regions + region, return_inverse=True)
     net = np.bincount(group, 1.0 - 2.0 * (along % 2), minlength=len(key))
@@ -132,7 +132,7 @@ def _material_on_the_left(n: int, along: Ints, region: Ints) -> Ints:
 
 
 def _cells_of_loops(half: HalfEdges, on_mesh: Bools, side: Ints, touched: Bools) -> Ints:
-    """Touched cell of each loop: faces that meet off the mesh lie in one cell."""
+    """Touched cell of each loop: faces that meet off mesh edges lie in the same cell."""
     one, two = half.loop[0::2][~on_mesh], half.loop[1::2][~on_mesh]
     patch = components(half.n_loops, one, two)
     known = np.flatnonzero(side >= 0)
@@ -145,7 +145,7 @@ def _cells_of_loops(half: HalfEdges, on_mesh: Bools, side: Ints, touched: Bools)
 def _regions_of_loops(
     half: HalfEdges, length: Floats, left: Ints, cell: Ints, cell_region: Ints
 ) -> Ints:
-    """Region of each loop: faces that meet off all boundaries lie in one region or outside."""
+    """Region of each loop: faces that meet off all boundaries lie in the same region or outside."""
     right = left.reshape(-1, 2)[:, ::-1].ravel()
     free = (left[0::2] < 0) & (left[1::2] < 0)
     part = components(half.n_loops, half.loop[0::2][free], half.loop[1::2][free])
@@ -159,10 +159,10 @@ def _regions_of_loops(
 
 
 def _longest_claims(part: Ints, region: Ints, length: Floats) -> tuple[Ints, Ints]:
-    """For each part the region that most of its boundary belongs to, -1 for the outside.
+    """The region that the largest length of the boundary of each part belongs to, -1 outside.
 
-    The boundary of a part is of one mind but for places of the size of rounding, where snapping
-    may have turned a corner inside out.
+    The edges of a boundary agree, but for corners of the size of rounding that snapping may have
+    turned inside out.
     """
     regions = int(region.max(initial=-1)) + 2
     key, group = np.unique(part * regions + region + 1, return_inverse=True)

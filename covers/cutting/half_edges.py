@@ -18,11 +18,11 @@ class HalfEdges:
     Attributes
     ----------
     origin, head : (2 n,)
-        points each half-edge leads from and to.
+        start and end point of each half-edge.
     next, previous : (2 n,)
-        half-edges that follow and precede it around the face on its left hand.
+        next and previous half-edge around the face on the left.
     loop : (2 n,)
-        number of the closed walk it belongs to.
+        number of its closed loop.
     angle : (2 n,)
         direction, rad.
     """
@@ -36,7 +36,7 @@ class HalfEdges:
 
     @property
     def n_loops(self) -> int:
-        """Number of closed walks."""
+        """Number of closed loops."""
         return int(self.loop.max(initial=-1)) + 1
 
 
@@ -60,11 +60,11 @@ def half_edges(steps: Floats, edges: Ints) -> HalfEdges:
 
 
 def walks(following: Ints, start: Ints, length: Ints) -> Ints:
-    """Members of closed walks (k,), one after the other, each from its ``start`` (k,)."""
+    """Members of closed loops (k,), one after the other, each from its ``start`` (k,)."""
     begin = np.cumsum(length) - length
     out = np.empty(int(length.sum()), dtype=np.int64)
     current, active, step = start.copy(), np.arange(len(start)), 0
-    while len(active):  # one pass for each place in the longest walk, over all walks at once
+    while len(active):  # one pass for each place in the longest loop, for all loops at once
         out[begin[active] + step] = current
         step += 1
         active = active[length[active] > step]

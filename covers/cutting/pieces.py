@@ -1,4 +1,4 @@
-"""Elements of one layer of regions: whole cells, and the faces of cells that lines touch."""
+"""Elements of a layer of regions: whole cells, and faces of cells that lines touch."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ class Pieces:
     Attributes
     ----------
     elements : Polygons
-        one simple counter-clockwise ring each, in the order of cells.
+        simple polygons, counter-clockwise, in the order of cells.
     cell, region : (E,)
         cell and region of each element.
     whole : (E,)
-        whether the element is its cell, corner by corner in the cell's order.
+        whether the element is its cell, with corners in the order of the cell.
     of_loop : (loops,)
         element of each face, or -1.
     of_cell : (C,)
         element of each cell that no line touches, or -1.
     lost_area : float
-        area of the slivers left out, m2.
+        area of the faces left out, m2.
     lost : int
         number of them.
     """
@@ -47,9 +47,9 @@ class Pieces:
     lost: int
 
 
-# Faces less than about twice this many steps of the resolution wide are rounding.
+# Faces narrower than about twice so many steps of the resolution are rounding.
 THIN = 1.0
-# Decimals, in sizes of their cell, to which middles of faces are told apart for their order.
+# Decimals of centroids, in sizes of the cell, by which faces of a cell are ordered.
 DECIMALS = 6
 
 
@@ -59,9 +59,9 @@ def pieces_of(cover: Cover, cells: Cells, faces: Faces, smallest: float, step: f
     Parameters
     ----------
     smallest : float
-        faces of less than this part of their cell's area are left out.
+        faces below this share of the area of their cell are left out.
     step : float
-        resolution, m: faces of this width are left out too.
+        resolution, m; faces of this width are left out, too.
     """
     half = faces.half
     area, perimeter = _loop_sizes(faces)
@@ -69,7 +69,7 @@ def pieces_of(cover: Cover, cells: Cells, faces: Faces, smallest: float, step: f
     divided[half.loop[np.repeat(faces.closure, 2)]] = True
     material = (faces.cell >= 0) & (faces.region >= 0)
     cell_area = np.where(material, cover.cells.areas[faces.cell], np.inf)
-    # A sliver beside a closure is part of its neighbour's covers and does no harm.
+    # A sliver beside a closure shares the covers of its neighbour and is harmless.
     least = np.maximum(smallest * cell_area, THIN * step * perimeter)
     sliver = material & ~divided & (area < least)
 
@@ -91,18 +91,18 @@ def pieces_of(cover: Cover, cells: Cells, faces: Faces, smallest: float, step: f
 
 
 def joins_of(cover: Cover, cells: Cells, faces: Faces, pieces: Pieces, group: Ints) -> Joins:
-    """Return the pairs of elements joined across edges.
+    """Return the joined pairs of elements.
 
     Parameters
     ----------
     group : (R,)
-        regions of one number are joined across common boundaries.
+        regions of the same number are joined across common boundaries.
     """
     half = faces.half
     element = pieces.of_loop[half.loop]
     across = neighbours(faces, pieces, element)
     joined = np.flatnonzero(joined_sides(faces, pieces, element, across, group))
-    # Edges between two faces are seen from both sides, those to a whole cell from one.
+    # Edges between two faces occur on both sides, those to a whole cell on one.
     alone = pieces.of_loop[half.loop[joined ^ 1]] < 0
     once = joined[alone | (element[joined] < across[joined])]
     begin = faces.points[half.origin[once]]
@@ -119,7 +119,7 @@ def joins_of(cover: Cover, cells: Cells, faces: Faces, pieces: Pieces, group: In
 
 
 def neighbours(faces: Faces, pieces: Pieces, element: Ints) -> Ints:
-    """Element (2 n,) on the other side of each half-edge, -1 where there is none."""
+    """Return the element (2 n,) on the other side of each half-edge; -1 without one."""
     opposite = np.arange(len(element)) ^ 1
     other = faces.side[opposite]
     whole = np.where(other >= 0, pieces.of_cell[other], -1)
@@ -127,9 +127,10 @@ def neighbours(faces: Faces, pieces: Pieces, element: Ints) -> Ints:
 
 
 def joined_sides(faces: Faces, pieces: Pieces, element: Ints, across: Ints, group: Ints) -> Bools:
-    """Half-edges (2 n,) of an element with nothing that parts it from the one across.
+    """Return which half-edges (2 n,) have elements on both sides without a discontinuity.
 
-    ``element`` and ``across`` (2 n,) are on either side, -1 outside; ``group`` (N,) of regions.
+    ``element`` and ``across`` (2 n,) are the elements on both sides, -1 outside; ``group`` (N,) is
+    that of regions.
     """
     both = (element >= 0) & (across >= 0)
     same = group[pieces.region[element]] == group[pieces.region[across]]
@@ -137,7 +138,7 @@ def joined_sides(faces: Faces, pieces: Pieces, element: Ints, across: Ints, grou
 
 
 def _loop_sizes(faces: Faces) -> tuple[Floats, Floats]:
-    """Area of each face, positive when it lies on the left hand, m2, and perimeter, m."""
+    """Area of each loop, positive for a face on its left (m2), and perimeter (m)."""
     half = faces.half
     first = np.unique(half.loop, return_index=True)[1]
     anchor = faces.points[half.origin[first]][half.loop]
@@ -150,9 +151,9 @@ def _loop_sizes(faces: Faces) -> tuple[Floats, Floats]:
 
 
 def _middles(cover: Cover, faces: Faces, loops: Ints) -> Floats:
-    """Middles (m, 2) of faces in sizes of their cells, rounded.
+    """Rounded centroids (m, 2) of faces in sizes of their cells.
 
-    They order the pieces of a cell, whatever the order in which lines were put together.
+    They give the faces of a cell an order that does not depend on that of the lines.
     """
     half = faces.half
     row = np.full(half.n_loops, -1, dtype=np.int64)
@@ -171,13 +172,13 @@ def _middles(cover: Cover, faces: Faces, loops: Ints) -> Floats:
 
 
 def _rings(cover: Cover, faces: Faces, of_loop: Ints, of_cell: Ints) -> tuple[Polygons, Bools]:
-    """Rings of all elements and whether each is its whole cell."""
+    """Polygons of all elements, and whether each is its whole cell."""
     half, corners = faces.half, cover.cell_vertices.shape[1]
     member = np.flatnonzero(of_loop[half.loop] >= 0)
     length = np.bincount(half.loop[member], minlength=half.n_loops)
     uncut = np.bincount(half.loop[member[faces.on_mesh[member // 2]]], minlength=half.n_loops)
-    # A cell's corner 0 comes first in its rings, so that whole cells keep the cell's order; where
-    # that is cut off, the point furthest to the left.
+    # Polygons start at corner 0 of their cell, so that whole cells keep their order; if that is cut
+    # off, at the leftmost point.
     zero = cover.vertices[cover.cell_vertices[faces.cell[half.loop[member]], 0]]
     begins = (faces.points[half.origin[member]] == zero).all(axis=1)
     x, y = faces.points[half.origin[member]].T

@@ -1,4 +1,7 @@
-"""The length below which places are one: all decisions of a cut are certain above it."""
+"""The resolution of a cut: the length below which points are merged.
+
+Above it all geometric predicates of a cut are certain.
+"""
 
 from __future__ import annotations
 
@@ -9,16 +12,16 @@ import numpy as np
 from covers.cutting.components import components, unique_rows
 from integration.arrays import Floats, Ints
 
-# Steps across the model as a power of two. Doubles hold 2^53: the difference leaves places an
-# error of 2^-8 steps and orientation tests one of 2^-5, far below the step that parts points.
+# Steps across the model, as a power of two. Doubles have 53 bits: the rest leaves an error of 2^-8
+# steps to coordinates, and of 2^-5 to orientation tests, far below the distance of points.
 STEPS = 46
-# Steps are not finer than this many units in the last place of the coordinates.
+# A step is at least so many units in the last place of the coordinates.
 ULPS = 32
 
 
 @dataclass(frozen=True)
 class Resolution:
-    """Coordinates ``(x - centre) / step`` in which points nearer than 1 are one point.
+    """Coordinates ``(x - centre) / step``, in which points nearer than 1 are merged.
 
     Attributes
     ----------
@@ -43,9 +46,9 @@ class Resolution:
 def resolution_of(points: Floats) -> Resolution:
     """Return the resolution of a model with the given extreme points.
 
-    The step is 2^-46 of the model's extent, rounded up to a power of two (1.4e-14 to 2.8e-14), and
-    at least 32 units in the last place of the largest coordinate: far from the origin the
-    coordinates themselves know no more.
+    The step is 2^-46 of the extent of the model, rounded up to a power of two (1.4e-14 to 2.8e-14),
+    and at least 32 units in the last place of the largest coordinate, as far from the origin
+    coordinates are no more accurate.
     """
     low, high = points.min(axis=0), points.max(axis=0)
     extent = float((high - low).max())
@@ -55,9 +58,9 @@ def resolution_of(points: Floats) -> Resolution:
 
 
 def clusters(steps: Floats) -> tuple[Ints, Ints]:
-    """First point of each cluster of points within one step of one another, and each's cluster.
+    """Return the first point of each cluster of points within a step, and clusters (n,).
 
-    First points of two clusters are more than a step apart.
+    The first points of clusters are more than a step apart.
     """
     from scipy.spatial import cKDTree
 

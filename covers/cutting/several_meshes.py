@@ -1,4 +1,4 @@
-"""Several nets in one model, each over bodies of its own: what was cut apart becomes one cut."""
+"""Several meshes in one model, each over bodies of its own: the separate cuts are merged."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from integration.arrays import Ints
 
 
 def joined_cover(nets: Sequence[PolynomialCover]) -> PolynomialCover:
-    """Return the cells and patches of all nets, one net after the other; they may overlap.
+    """Return the cells and patches of all meshes, one after the other; they may overlap.
 
     Raises
     ------
     ValueError
-        Nets of different kinds.
+        Meshes are of different types.
     """
     first = nets[0]
     if any(type(net) is not type(first) for net in nets):
@@ -36,14 +36,14 @@ def joined_cover(nets: Sequence[PolynomialCover]) -> PolynomialCover:
 def joined_cut(
     nets: Sequence[PolynomialCover], cuts: Sequence[CutCells], regions: Sequence[Ints]
 ) -> CutCells:
-    """Return the cuts of all nets as one, of their joined cover; bodies in the order of regions.
+    """Return the cuts of all meshes as one of their joined cover, with bodies by region.
 
     Parameters
     ----------
     nets, cuts
-        What was cut, and how.
+        The meshes and their cuts.
     regions
-        The regions, by their number in the model, that each cut was given.
+        Numbers in the model of the regions of each cut.
     """
     pairs = list(zip(regions, cuts, strict=True))
     offsets = {
@@ -74,7 +74,7 @@ def joined_cut(
 
 
 def _in_order_of_regions(cut: CutCells) -> Ints:
-    """New number of each body: bodies follow their regions, and in a region the cut."""
+    """New number of each body, by region, then by its number in the cut."""
     region = np.empty(cut.n_bodies, dtype=np.int64)
     region[cut.element_body] = cut.element_region
     number = np.empty_like(region)

@@ -1,4 +1,4 @@
-"""Pairs of elements that share an edge which no boundary runs along."""
+"""Pairs of elements that share an edge off the boundary."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from integration.polygons import Polygons
 def shared_edges(elements: Polygons, body: Ints, boundary: BoundaryEdges) -> tuple[Ints, Ints]:
     """Return the two elements (p,) of each edge inside a body, the lower number first.
 
-    Elements of a cut share the coordinates of their vertices bit by bit.
+    Shared vertices of the elements of a cut have identical coordinates.
     """
     points, owner = elements.points, elements.polygon_of_point
     every = np.concatenate([points, boundary.start, boundary.end]) + 0.0

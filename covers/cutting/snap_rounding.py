@@ -1,10 +1,10 @@
-"""Snapping: lines meet in common points and nowhere else.
+"""Snap rounding: lines meet at common end points only.
 
-In the manner of iterated snap rounding (Hobby 1999; Halperin and Packer 2002): points within a step
-(`covers.cutting.resolution`) are one; a line that passes a point within `NEAR` steps is bent to
-pass through it; crossings become points; until nothing changes. In the end every point keeps more
-than `NEAR` steps from all lines that do not end in it, which makes angles about a point distinct in
-double precision. `NEAR` is less than the step, so that a bend always shortens a line.
+As in iterated snap rounding (Hobby 1999; Halperin and Packer 2002), points within a step
+(`covers.cutting.resolution`) are merged, a line that passes a point within `NEAR` steps is bent to
+pass through it, and crossings become points, until nothing changes. In the end every point is more
+than `NEAR` steps away from all lines that do not end at it, so that angles about a point are
+distinct in double precision. `NEAR` is less than a step, so that a bend always shortens a line.
 """
 
 from __future__ import annotations
@@ -25,16 +25,16 @@ SNAP_PASSES = 60
 
 @dataclass(frozen=True)
 class Lines:
-    """Pieces of lines between points.
+    """Segments of lines between points.
 
     Attributes
     ----------
     steps, points : (V, 2)
         points more than a step apart, in steps and in m.
     start, end : (n,)
-        points of each piece, in the sense of the line that it comes from.
+        points of each segment, in the direction of its line.
     source : (n,)
-        the line, or -1.
+        line of each, or -1.
     """
 
     steps: Floats
@@ -44,7 +44,7 @@ class Lines:
     source: Ints
 
     def with_points(self, steps: Floats, points: Floats) -> tuple[Lines, Ints]:
-        """More points, and the number of each: that of a known point within a step if any."""
+        """Add points; return the number of each, which is that of a known point within a step."""
         from scipy.spatial import cKDTree
 
         distance, nearest = cKDTree(self.steps).query(steps, distance_upper_bound=1.0)
@@ -61,7 +61,7 @@ class Lines:
         return self, number
 
     def with_pieces(self, start: Ints, end: Ints, source: Ints) -> Lines:
-        """The same points with more pieces."""
+        """Add segments."""
         return replace(
             self,
             start=np.concatenate([self.start, start]),
@@ -71,7 +71,7 @@ class Lines:
 
 
 def lines_between(points: Floats, resolution: Resolution, start: Ints, end: Ints) -> Lines:
-    """Lines (m,) between points (n, 2); of points within a step the first remains."""
+    """Return lines (m,) between points (n, 2), of which those within a step are merged."""
     steps = resolution.steps(points)
     first, vertex = clusters(steps)
     return Lines(steps[first], points[first], vertex[start], vertex[end], np.arange(len(start)))
@@ -83,14 +83,14 @@ def node(lines: Lines, fresh: Bools, resolution: Resolution) -> Lines:
     Parameters
     ----------
     fresh : (n,)
-        pieces that may meet others; the rest is known to meet only in common points.
+        segments that may cross others; the rest is known to meet at common points only.
 
     Raises
     ------
     ValueError
-        No end after `SNAP_PASSES` passes.
+        Lines still cross after `SNAP_PASSES` passes.
     """
-    for _ in range(SNAP_PASSES):  # passes over all lines: two to four in practice
+    for _ in range(SNAP_PASSES):  # two to four in practice
         kept = lines.start != lines.end
         lines = replace(
             lines, start=lines.start[kept], end=lines.end[kept], source=lines.source[kept]
@@ -109,7 +109,7 @@ def node(lines: Lines, fresh: Bools, resolution: Resolution) -> Lines:
 
 
 def undirected(start: Ints, end: Ints) -> tuple[Ints, Ints]:
-    """Distinct edges (m, 2), lower point first, and the edge of each piece."""
+    """Return distinct edges (m, 2), lower point first, and the edge of each segment."""
     low, high = np.minimum(start, end), np.maximum(start, end)
     size = int(high.max(initial=0)) + 1
     key, edge = np.unique(low * size + high, return_inverse=True)
@@ -118,7 +118,7 @@ def undirected(start: Ints, end: Ints) -> tuple[Ints, Ints]:
 
 @dataclass(frozen=True)
 class _Meetings:
-    """Edges to be split: at known points, and at crossings that become new points."""
+    """Edges to be split: at known points, and at crossings, which become new points."""
 
     edge: Ints
     parameter: Floats
@@ -135,7 +135,7 @@ def _meetings(steps: Floats, edges: Ints, fresh: Bools) -> _Meetings:
     edge = np.concatenate([one, one, two, two])
     point = np.concatenate([edges[two].T.ravel(), edges[one].T.ravel()])
     near, parameter = _passes(steps, edges[edge], point)
-    # Crossings wait until lines that run together are one: else each would have its own crossing.
+    # Crossings wait until overlapping lines are merged, as each would have a crossing of its own.
     share = (edges[one][:, :, None] == edges[two][:, None, :]).any(axis=(1, 2)) | near.any()
     one, two = one[~share], two[~share]
     crosses, t, s = _crossings(
@@ -149,7 +149,7 @@ def _meetings(steps: Floats, edges: Ints, fresh: Bools) -> _Meetings:
 
 
 def _close_pairs(steps: Floats, edges: Ints, fresh: Bools) -> tuple[Ints, Ints]:
-    """Pairs of edges with boxes that meet, at least one of them fresh."""
+    """Pairs of edges whose bounding boxes meet, at least one of them fresh."""
     corners = steps[edges]
     low, high = corners.min(axis=1) - 1, corners.max(axis=1) + 1
     boxes = shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1])
@@ -175,7 +175,7 @@ def _passes(steps: Floats, edge: Ints, point: Ints) -> tuple[Bools, Floats]:
 def _crossings(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Bools, Floats, Floats]:
     """Whether segments ab and cd cross between their ends, and the parameters on both.
 
-    No end is nearer than `NEAR` to the other segment, so that the signs are certain.
+    No end is within `NEAR` of the other segment, so that the signs are certain.
     """
     ab, cd, ac = b - a, d - c, c - a
     of_c, of_d = cross(ab, ac), cross(ab, d - a)
@@ -188,7 +188,7 @@ def _crossings(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Bools, Float
 def _split(
     lines: Lines, edges: Ints, edge: Ints, is_fresh: Bools, resolution: Resolution
 ) -> tuple[Lines, Bools]:
-    """Lines with edges split at their meetings, and which pieces may meet others again."""
+    """Split edges where they meet; return also which segments may cross others again."""
     meetings = _meetings(lines.steps, edges, is_fresh)
     lines, new = lines.with_points(meetings.crossing, resolution.points(meetings.crossing))
     chain_start, chain_end, chain_edge = _chains(
@@ -208,18 +208,18 @@ def _split(
     split = replace(lines, start=start, end=end, source=lines.source[piece])
     fresh = number > 1
     if len(meetings.edge):
-        fresh |= is_fresh  # its crossings have not been looked for
+        fresh |= is_fresh  # their crossings have not been searched for
     return split, fresh[edge[piece]]
 
 
 def _chains(edges: Ints, edge: Ints, parameter: Floats, point: Ints) -> tuple[Ints, Ints, Ints]:
-    """Pieces of all edges in order of edge and parameter: start, end, edge."""
+    """Segments of all edges, by edge and parameter: start, end, edge."""
     n = len(edges)
     all_edges = np.concatenate([edge, np.arange(n), np.arange(n)])
     all_parameters = np.concatenate([parameter, np.full(n, -1.0), np.full(n, 2.0)])
     all_points = np.concatenate([point, edges[:, 0], edges[:, 1]])
     order = np.lexsort((all_points, all_parameters, all_edges))
     all_edges, all_points = all_edges[order], all_points[order]
-    # A point met by several lines splits the edge once.
+    # A point on several lines splits the edge once.
     link = (all_edges[1:] == all_edges[:-1]) & (all_points[1:] != all_points[:-1])
     return all_points[:-1][link], all_points[1:][link], all_edges[1:][link]

@@ -1,4 +1,4 @@
-"""Which cells lines touch, and in which region the others lie."""
+"""The cells that lines touch, and the regions of the others."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from integration.ragged import within
 
 
 def touched_cells(cover: Cover, lines: Segments, distance: float, size: float) -> Bools:
-    """Cells (C,) nearer than ``distance`` (m) to any of the lines.
+    """Return which cells (C,) are nearer than ``distance`` (m) to any of the lines.
 
     Parameters
     ----------
     size : float
-        length to which lines are chopped before the search, about the size of a cell, m.
+        length into which lines are divided for the search, about the size of a cell, m.
     """
     touched = np.zeros(len(cover.cell_vertices), dtype=bool)
     if not len(lines):
@@ -51,13 +51,13 @@ def _boxes(low: Floats, high: Floats) -> npt.NDArray[np.object_]:
 
 
 def _near_bins(first: Floats, last: Floats, low: Floats, high: Floats, size: float) -> Bools:
-    """Boxes (C,) from ``first`` to ``last`` that share a bin of a grid with a box of the others.
+    """Boxes (C,) from ``first`` to ``last`` that share a bin of a grid with any other box.
 
-    Far cheaper than a search tree of all boxes: bins that hold something are counted by sums over
-    rectangles of the grid.
+    Much cheaper than a search tree of all boxes: occupied bins are counted by cumulative sums over
+    the grid.
     """
     origin, end = first.min(axis=0), last.max(axis=0)
-    # No more bins than about four a cell, however uneven the cells are.
+    # At most about four bins for each cell, however nonuniform the cells are.
     least = np.sqrt(float(np.prod(end - origin)) / (4 * len(first)))
     step = max(size, least, float((end - origin).max()) / (4 * len(first) + 1))
     shape = np.floor((end - origin) / step).astype(np.int64) + 1
@@ -80,10 +80,10 @@ def _near_bins(first: Floats, last: Floats, low: Floats, high: Floats, size: flo
 def region_of_cells(
     cover: Cover, shapes: npt.NDArray[np.object_], regions: Ints, touched: Bools
 ) -> Ints:
-    """Region (C,) that holds the middle of each cell, -1 outside all ``regions``.
+    """Return the region (C,) that contains the middle of each cell, -1 outside all ``regions``.
 
-    Cells that share an edge lie in the same region when no line touches them, so that one is looked
-    up for all that hang together.
+    Neighbouring cells that no line touches lie in the same region, so that one cell of each
+    connected group is looked up.
     """
     left, right = cover.edges.left, cover.edges.right
     free = (left >= 0) & (right >= 0)
@@ -98,7 +98,7 @@ def region_of_cells(
 
 
 def _chopped(lines: Segments, size: float) -> Floats:
-    """Pieces (n, 2, 2) of lines not longer than ``size``."""
+    """Segments (n, 2, 2) of lines, not longer than ``size``."""
     along = lines.end - lines.start
     number = np.ceil(np.hypot(*along.T) / size).astype(np.int64).clip(1)
     line = np.repeat(np.arange(len(lines)), number)

@@ -1,4 +1,4 @@
-"""What a physical cover multiplies its weight by.
+"""Local functions of physical covers.
 
-Polynomials, and the singular functions of tips and corners.
+Polynomials, and the singular functions of crack tips and corners.
 """

@@ -1,33 +1,33 @@
-"""Corner functions: the singular fields at a re-entrant corner with free faces."""
+"""Corner functions: the singular fields at a re-entrant corner with traction-free faces."""
 
 import numpy as np
 from scipy.optimize import brentq
 
 from covers.local_functions.singular_functions import SingularFunctions
 
-# Exponents this near to one belong to rotations, which polynomials hold.
+# Exponents this near to one belong to rotations, which polynomials contain.
 ROTATION = 0.02
 
 
 def corner_functions(
     angle: float, kappa: float, length: float, both: bool = False
 ) -> SingularFunctions:
-    """Return the singular modes of a corner of material of the given angle (Williams 1952).
+    """Return the singular modes of a corner of given angle (Williams 1952).
 
     Parameters
     ----------
     angle
-        of the material, between pi and 2 pi, rad. One mode is singular below 257.4 degrees, two
-        above.
+        Angle that the material fills, between pi and 2 pi (rad). One mode is singular below 257.4
+        degrees, two above.
     kappa, length
-        as in `SingularFunctions`.
+        See `SingularFunctions`.
     both
-        Whether the first antisymmetric mode is wanted where its stress is bounded, too.
+        Whether to include the first antisymmetric mode where its stress is bounded, too.
 
     Raises
     ------
     ValueError
-        A corner that is not re-entrant.
+        The corner is not re-entrant.
     """
     if not np.pi < angle <= 2 * np.pi:
         raise ValueError(
@@ -36,7 +36,7 @@ def corner_functions(
         )
     half = angle / 2
     first, second = _exponent(half, 1.0), _exponent(half, -1.0)
-    assert first is not None  # there is one at every re-entrant corner
+    assert first is not None  # it exists at every re-entrant corner
     ratio = -(first - 1) / (first + 1) * _sines(first, half)
     if second is None and both:
         second = _exponent(half, -1.0, 1 + ROTATION, 2.0) or 1 + ROTATION
@@ -52,7 +52,7 @@ def _sines(power: float, half: float) -> float:
 
 
 def _exponent(half: float, sign: float, least: float = 0.4, most: float = 1 - 1e-9) -> float | None:
-    """Least root of ``sin(2 l a) + sign l sin(2 a) = 0`` within bounds; None without one."""
+    """Smallest root of ``sin(2 l a) + sign l sin(2 a) = 0`` within bounds; None without one."""
 
     def equation(power: float) -> float:
         return float(np.sin(2 * power * half) + sign * power * np.sin(2 * half))

@@ -1,4 +1,4 @@
-"""Local functions of a physical cover: scalar monomials and how unknowns combine them.
+"""Polynomial local functions of a physical cover: monomials, and their combinations.
 
 On a physical cover with centre ``c`` and matrix ``M`` the displacement is
 
@@ -6,7 +6,7 @@ On a physical cover with centre ``c`` and matrix ``M`` the displacement is
 
 with ``f_s`` all monomials up to ``degree``, ``a_s`` a vector of two components and ``d`` the
 cover's unknowns. ``C`` (`combination`) is the identity for plain polynomials; DDA's block basis
-is a particular ``C`` over the linear monomials (Shi 1988): nothing downstream asks which it is.
+is a particular ``C`` over the linear monomials (Shi 1988).
 """
 
 from collections.abc import Callable
@@ -23,7 +23,7 @@ from integration.monomials import count
 
 @dataclass(frozen=True)
 class LocalFunctions:
-    """Base: complete polynomials of one degree, optionally combined.
+    """Base: complete polynomials of one degree, or combinations of them.
 
     Attributes
     ----------
@@ -46,12 +46,12 @@ class LocalFunctions:
 
     @property
     def n_unknowns(self) -> int:
-        """Number of unknowns a cover carries."""
+        """Number of unknowns of a cover."""
         return 2 * self.n_functions if self.combination is None else self.combination.shape[1]
 
     @property
     def physical_length(self) -> bool:
-        """Whether ``M = I``: the unknowns have the units of displacement and strain."""
+        """Whether ``M = I``, so that unknowns have the units of displacement and strain."""
         return False
 
     @cached_property
@@ -73,7 +73,7 @@ class LocalFunctions:
 
         Returns
         -------
-        (n, n_unknowns); a basis without linear functions takes the centre's value alone.
+        (n, n_unknowns); a basis without linear functions takes the value at the centre alone.
         """
         coefficients = np.zeros((len(value), self.n_functions, 2))
         coefficients[:, 0] = value
@@ -137,16 +137,16 @@ class Kinds:
     Attributes
     ----------
     functions
-        The different ones.
+        The distinct local functions.
     which
-        (C,) which of them each physical cover has.
+        (C,) number of those of each physical cover.
     """
 
     functions: tuple[LocalFunctions, ...]
     which: Ints
 
     def each(self, of: Callable[[LocalFunctions], Any]) -> Any:
-        """Return an array (C,) of what the functions of each physical cover have."""
+        """Return an array (C,) of a property of the functions of each physical cover."""
         return np.array([of(item) for item in self.functions])[self.which]
 
 

@@ -1,4 +1,4 @@
-"""Local functions singular at a point: the first terms of the series of Williams (1952, 1957).
+"""Local functions singular at a point: first terms of the series of Williams (1952, 1957).
 
 About a notch whose bisector is the x axis, with polar coordinates r and t,
 
@@ -6,8 +6,8 @@ About a notch whose bisector is the x axis, with polar coordinates r and t,
     u_y = r^l [ (k + Q (l + 1)) sin(l t) + l sin((l - 2) t) ]
 
 for symmetric modes, and with sin for cos in u_x and -cos for sin in u_y for antisymmetric ones.
-They leave the faces ``t = +-a`` free of traction with the exponents ``l`` and ratios ``Q`` that
-`covers.local_functions.corner_functions` finds; ``l = 1/2`` is the crack tip.
+The faces ``t = +-a`` are traction-free for the exponents ``l`` and ratios ``Q`` of
+`covers.local_functions.corner_functions`; ``l = 1/2`` is the crack tip.
 """
 
 from dataclasses import dataclass
@@ -56,7 +56,7 @@ class SingularFunctions:
         lead = np.array([self.kappa - q * (power + 1), self.kappa + q * (power + 1)])
         other = np.array([-power, power])
         shift = 0.0 if self.symmetric[mode] else np.pi / 2
-        # Antisymmetric modes: cos -> sin and sin -> -cos is a turn of the angle by a quarter.
+        # Antisymmetric modes: cos -> sin and sin -> -cos is a shift of the angle by pi / 2.
         parts = [
             _wave(power, power * angle - shift, power, lead),
             _wave(power, (power - 2) * angle - shift, power - 2, other),

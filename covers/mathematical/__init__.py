@@ -1,4 +1,4 @@
-"""Patches and their weights: every mathematical cover, one file each.
+"""Mathematical covers: patches and their weights, a file for each type.
 
 Nothing here is cut by material.
 """

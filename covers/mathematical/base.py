@@ -22,17 +22,17 @@ if TYPE_CHECKING:
 
     Recut = Callable[["Cover"], CutCells]
 
-# Cells along a side that are told apart when they are counted.
+# Largest number of cells along a side that is counted exactly.
 MOST_ALONG = 1e6
 
 
 class CoverType:
-    """A way of covering material: by patches over all of it, or by its pieces, one cover each.
+    """A type of cover: patches over all of the material, or one cover for each block.
 
     Attributes
     ----------
     coordinates
-        options that are points, in the axes of the material.
+        options that are points in the axes of the scene.
     """
 
     coordinates: ClassVar[tuple[str, ...]] = ()
@@ -40,9 +40,9 @@ class CoverType:
 
 @dataclass(frozen=True, eq=False)
 class Cover(CoverType, ABC):
-    """Patches over a mesh of convex cells; each cell knows the patches that are active in it.
+    """Patches over a mesh of convex cells; each cell has the numbers of the patches active in it.
 
-    A cover is laid without regard to the material: the cut decides what is covered.
+    The mesh does not follow the material: the cut determines what is covered.
 
     Attributes
     ----------
@@ -51,15 +51,15 @@ class Cover(CoverType, ABC):
     cell_vertices : (C, v)
         corners of each cell, counter-clockwise.
     cell_patches : (C, k)
-        patches active in each cell; -1 fills the rows of covers whose number varies.
+        patches active in each cell, padded with -1 where their number varies.
     patch_centre : (N, 2)
         centre of each patch, m. With ``precision >= 1``, ``sum w_i(x) centre_i = x``.
     patch_size : (N,)
-        length that scales coordinates about the centre to at most about one in the patch, m.
+        length that scales coordinates about the centre to about one in the patch, m.
     cell_shape : (C,)
-        cells of one number are translations of one another; -1 where nothing is known.
+        cells of the same number are translates of each other; -1 where this is unknown.
     overlap
-        How many times the entries of a mesh's rows those of the cover have.
+        Ratio of the number of entries of its matrix rows to those of a mesh of finite elements.
     """
 
     overlap: ClassVar[float] = 1.0
@@ -72,15 +72,15 @@ class Cover(CoverType, ABC):
 
     @classmethod
     def foreseen(cls, bounds: npt.ArrayLike, size: float, **options: Any) -> float:
-        """Return about how many cells ``regular`` would lay over a box, before it lays any.
+        """Return the approximate number of cells that ``regular`` makes over a box.
 
-        Here one for each square of ``size``; a cover whose cells differ counts them. Of more than
-        a million along a side the number is no longer exact.
+        By default one for each square of ``size``; override it for other cells. Beyond a million
+        cells along a side the number is not exact.
 
         Raises
         ------
         ValueError, TypeError
-            Where ``regular`` would raise it.
+            As ``regular`` raises them.
         """
         low, high = np.array(bounds, dtype=float).reshape(2, 2)
         return float(np.prod(np.minimum(high - low, MOST_ALONG * size) / size + 1))
@@ -88,16 +88,16 @@ class Cover(CoverType, ABC):
     @property
     @abstractmethod
     def precision(self) -> int:
-        """Highest degree ``s`` of the polynomials that the weights combine to exactly."""
+        """Highest degree ``s`` of the polynomials that the weights reproduce exactly."""
 
     @property
     def weight_degree(self) -> int | None:
-        """Total degree of the weights as polynomials on a cell, None when they are not."""
+        """Total degree of the weights as polynomials on a cell; None for others."""
         return None
 
     @property
     def disc_radius(self) -> Floats | None:
-        """Radii (N,) of patches that are discs, None when patches are unions of cells, m."""
+        """Radii (N,) of patches that are discs (m); None if patches are unions of cells."""
         return None
 
     @abstractmethod
@@ -105,12 +105,12 @@ class Cover(CoverType, ABC):
         """Weights (m, k) and gradients (m, k, 2) of the patches of ``cells`` (m,) at points."""
 
     def settled(self, cut: CutCells, again: Recut) -> tuple[Cover, CutCells]:
-        """Return cover and cut as functions are made on them: without patches that carry none.
+        """Return the cover and cut on which functions are defined, without unusable patches.
 
         Parameters
         ----------
         cut
-            What the material has left of the cover.
+            The cut of the cover by the material.
         again
             Cuts another cover by the same material.
         """
@@ -118,15 +118,15 @@ class Cover(CoverType, ABC):
 
     @property
     def mended(self) -> dict[str, int]:
-        """What `settled` has changed, in words with how many patches."""
+        """Changes by `settled`, in words, with the number of patches."""
         return {}
 
     def weights(self, cells: Ints, points: Floats) -> Floats:
-        """Weights (m, k) at ``points`` (m, 2), each in the cell of the same row."""
+        """Weights (m, k) at ``points`` (m, 2) in ``cells`` (m,)."""
         return self.evaluate(cells, points)[0]
 
     def weight_tables(self, cells: Ints, origin: Floats, scale: Floats) -> tuple[Floats, int]:
-        """Coefficients (m, k, K) of the weights over monomials of (x - origin) / scale, degree.
+        """Coefficients (m, k, K) of the weights over monomials of (x - origin) / scale, and degree.
 
         Raises
         ------

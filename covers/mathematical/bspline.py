@@ -52,12 +52,12 @@ class BSplines(PolynomialCover):
         degree : int
             degree of the splines, 1 to 5.
         angle, shift
-            turn of the net, rad, and its displacement in fractions of the edges.
+            rotation of the grid, rad, and its shift in fractions of the edges.
 
         Raises
         ------
         ValueError
-            A degree out of range.
+            The degree is out of range.
         """
         if degree not in range(1, 6):
             raise ValueError(
@@ -103,7 +103,7 @@ def _tensor_table(degree: int) -> Floats:
 def cardinal_pieces(degree: int) -> Floats:
     """Coefficients (degree + 1, degree + 1) in t on [0, 1] of the splines active in a span.
 
-    Row ``a`` is the spline that began ``degree - a`` spans before, column ``p`` the factor of t^p.
+    Row ``a`` is the spline that begins ``degree - a`` spans before, column ``p`` the factor of t^p.
     The recursion of Cox and de Boor for knots at the integers (de Boor 1978, X).
     """
     pieces = np.ones((1, 1))

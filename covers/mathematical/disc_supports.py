@@ -1,13 +1,13 @@
-"""Discs that reach the material too little carry nothing: they are left out, others reach farther.
+"""Removal of discs with too little material, and enlargement of others.
 
-A disc of whose kernel only a rim lies in the material has a function that integration hardly
-sees: its stiffness is rounding, and a load on it moves it by kilometres. Weights by least squares
-are made of whichever discs are there, so such a disc is left out, piece by piece where cracks part
-it, and the fit goes on with the others. Where these do not determine it well they are enlarged.
+If only the rim of the kernel of a disc lies in the material, integration hardly sees its function:
+its stiffness is rounding, and a load moves it by kilometres. As moving least squares need no
+particular disc, such a disc is removed, for each part where cracks divide it, and the fit uses the
+others. Where these do not determine it well, they are enlarged.
 
-What is measured of a disc is its *share*: the integral of its squared kernel over the material by
-that over the disc. It is poor below `POOR` of the largest share among the discs that it overlaps,
-so that a body thinner than the discs keeps those that lie on it best.
+The measure of a disc is its *share*: the integral of its squared kernel over the material over that
+over the whole disc. A disc is removed if its share is below `POOR` of the largest share among the
+discs that it overlaps, so that a body thinner than the discs keeps the best of them.
 """
 
 from __future__ import annotations
@@ -25,19 +25,20 @@ if TYPE_CHECKING:
     from covers.cutting.cut_cells import CutCells
     from covers.mathematical.moving_least_squares import MovingLeastSquares
 
-# A disc is left out when its share is below this part of the best about it, by degree of the basis:
-# each one less makes a coarse net stiffer, but functions on weights of Shepard's kind need more.
+# A disc is removed if its share is below this part of the largest about it, by degree of the basis.
+# Each removed disc makes a coarse grid stiffer, but functions on Shepard weights need larger
+# shares.
 POOR = {0: 0.05, 1: 1e-3, 2: 1e-3, 3: 1e-3}
-# Degree of polynomials to which shares are integrated.
+# Degree of the quadrature of shares.
 ORDER = 8
 # Points whose kernels are held in memory at once.
 KERNELS_AT_ONCE = 20_000
 
 
 def fitted_discs(cover: MovingLeastSquares, cut: CutCells) -> tuple[MovingLeastSquares, CutCells]:
-    """Return cover and cut without the discs that reach too little of the material.
+    """Return cover and cut without discs of too little material.
 
-    Elements of one cell that have lost different discs are given cells of their own.
+    Elements of a cell that lose different discs get cells of their own.
     """
     share = shares(cover, cut)
     known = np.append(share, -1.0)
@@ -86,14 +87,14 @@ def _disc(name: str) -> float:
     """Integral of the squared kernel over a disc of radius one."""
     at, weight = np.polynomial.legendre.leggauss(20)
     total = 0.0
-    for low in (0.0, 0.5):  # splines change at half the radius
+    for low in (0.0, 0.5):  # spline kernels are piecewise, with a knot at half the radius
         r = low + (at + 1) / 4
         total += float(np.sum(weight / 4 * 2 * np.pi * r * kernel(name)(r)[0] ** 2))
     return total
 
 
 def loose_discs(cover: MovingLeastSquares, cut: CutCells) -> Bools:
-    """Discs (N,) of fits that the points of an element do not determine well."""
+    """Return the discs (N,) whose fit is ill-determined at points of some element."""
     found = np.zeros(cover.n_patches + 1, dtype=bool)
     rule = polygon_rule(cut.elements, ORDER)
     points = np.concatenate([rule.points, cut.elements.points])

@@ -1,4 +1,4 @@
-"""Which discs meet which cells."""
+"""The discs that meet cells."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ import numpy as np
 from integration.arrays import Floats, Ints
 from integration.ragged import within
 
-# Of the farthest: centres of discs no further apart are in one place but for rounding.
+# Centres of discs nearer than this share of the largest distance differ by rounding alone.
 LIKE = 1e-6
 
 
 def discs_of_cells(nodes: Floats, radius: Floats, corners: Floats) -> Ints:
-    """Patches (C, k) whose open disc meets each cell, filled up with -1.
+    """Return the patches (C, k) whose open disc meets each cell, padded with -1.
 
     Discs have ``nodes`` (V, 2) and ``radius`` (V,), m; cells ``corners`` (C, v, 2), convex and
     counter-clockwise.
@@ -36,10 +36,10 @@ def discs_of_cells(nodes: Floats, radius: Floats, corners: Floats) -> Ints:
 
 
 def with_discs_alike(shape: Ints, patches: Ints, nodes: Floats, corner: Floats) -> Ints:
-    """Shapes (C,) of cells, parted where their patches (C, k) do not lie alike; -1 stays.
+    """Return shapes (C,) of cells, divided where their patches (C, k) are placed differently.
 
     Cells have a first ``corner`` (C, 2), discs ``nodes`` (V, 2), m. A disc that just touches cells
-    is one of some of them alone, for rounding.
+    is a patch of some of them only, by rounding. Shapes of -1 stay.
     """
     away = np.where(patches[:, :, None] >= 0, nodes[patches] - corner[:, None], 0.0)
     grain = LIKE * np.abs(away).max(initial=0.0)

@@ -15,7 +15,7 @@ PRECISION = 1e-14
 class DistortedQuads(Cover):
     """Patches are the stars of nodes; weights are bilinear in the reference square of each cell.
 
-    Points are taken back to the reference square by Newton's method, which needs convex cells
+    Points are mapped to the reference square by Newton's method, which needs convex cells
     (`Quads.from_mesh` refuses others).
     """
 
@@ -30,7 +30,7 @@ class DistortedQuads(Cover):
         Raises
         ------
         ValueError
-            A point so far outside its cell that it has no place in the reference square.
+            A point is so far outside its cell that it has no reference coordinates.
         """
         corners = self.vertices[self.cell_vertices[cells]]
         xi = _to_reference(corners, points)
@@ -57,7 +57,7 @@ def _to_reference(corners: Floats, points: Floats) -> Floats:
     xi = np.full(points.shape, 0.5)
     size = np.ptp(corners, axis=1).max(axis=1, initial=0.0)
     far = np.zeros(len(points), dtype=bool)
-    for _ in range(NEWTON_PASSES):  # Newton's passes over all points at once
+    for _ in range(NEWTON_PASSES):  # for all points at once
         miss = points - np.einsum("mk,mki->mi", _bilinear(xi), corners)
         far = ~(np.abs(miss).max(axis=1, initial=0.0) <= PRECISION * size)
         jacobian = np.einsum("mkj,mki->mij", _slopes(xi), corners)

@@ -1,4 +1,4 @@
-"""Triangles that grow with the distance from points where much happens."""
+"""Triangles that grow with the distance from given points, the foci."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from covers.mathematical.stars import star_sizes
 from covers.mathematical.triangles import Triangles
 from integration.arrays import Floats
 
-# Most lines of one direction.
+# Largest number of lines of one direction.
 MOST_LINES = 20_000
 
 
 class Graded(Triangles):
-    """Rectangles halved by a diagonal, between lines that draw apart with the distance from foci.
+    """Rectangles divided by a diagonal, between lines whose spacing grows away from the foci.
 
-    Lines run through the whole net, so that rectangles are slender beside a focus: the angles stay
-    at most right ones, which is what linear interpolation needs (Babuska and Aziz 1976).
+    Lines extend through the whole mesh, so that rectangles are slender beside a focus. No angle
+    exceeds 90 degrees, which is what linear interpolation needs (Babuska and Aziz 1976).
     """
 
     coordinates: ClassVar[tuple[str, ...]] = ("focus",)
 
     @classmethod
     def foreseen(cls, bounds: npt.ArrayLike, size: float, **options: Any) -> float:
-        """See `Cover.foreseen`; lines are drawn and no cells."""
+        """See `Cover.foreseen`; computed from the lines."""
         _, x, y = _net(bounds, size, **options)
         return 2.0 * (len(x) - 1) * (len(y) - 1)
 
@@ -45,36 +45,36 @@ class Graded(Triangles):
         growth: float = 0.2,
         coarsest: float | None = None,
     ) -> Self:
-        """Return a net over a box, fine near foci.
+        """Return a mesh over a box, fine near the foci.
 
         Parameters
         ----------
         bounds : (2, 2)
             lower and upper corner of the box, m.
         size : float
-            distance of lines at the foci, m.
+            spacing of lines at the foci, m.
         angle, shift
-            turn of the net, rad, and its displacement in fractions of a step at the foci.
+            rotation of the mesh, rad, and its shift in fractions of ``size``.
         focus : (n, 2)
-            points about which the net is fine; without any it is even.
+            points about which the mesh is fine; without any it is uniform.
         radius : float
-            the distance of lines is ``size`` as far as this from a focus, m.
+            distance from a focus within which the spacing is ``size``, m.
         growth : float
-            increase of the distance of lines over their distance from the focus.
+            increase of the spacing over the distance from the focus.
         coarsest : float, optional
-            largest distance of lines, m.
+            largest spacing, m.
 
         Raises
         ------
         ValueError
-            Sizes that cannot be, or more than 20 000 lines.
+            Sizes are inconsistent, or there are more than 20 000 lines.
         """
         net, x, y = _net(bounds, size, angle, shift, focus, radius, growth, coarsest)
         grid = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
         a, b, c, d = grid_cells(len(x) - 1, len(y) - 1).T
         cells = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
         vertices = net.origin + grid @ (net.axes / size)
-        # Without foci the cells are translations of two.
+        # Without foci the cells are translates of two.
         half = np.repeat(np.arange(2), len(a))
         shapes = np.full_like(half, -1) if len(focus) else half
         return cls._of(vertices, cells, star_sizes(vertices, cells), shapes)
@@ -90,7 +90,7 @@ def _net(
     growth: float = 0.2,
     coarsest: float | None = None,
 ) -> tuple[Net, Floats, Floats]:
-    """Return the even net, and the places (m) of the lines across its two axes."""
+    """Return the uniform grid, and the places (m) of the lines along its two axes."""
     net = regular_net(bounds, (size, size), angle, shift)
     if not (growth >= 0 and radius >= 0 and (coarsest is None or coarsest >= size)):
         raise ValueError(
@@ -111,14 +111,14 @@ def _net(
 def _lines(
     length: float, focus: Floats, sizes: tuple[float, float], radius: float, growth: float
 ) -> Floats:
-    """Places from 0 to ``length`` whose distances follow the wanted size: even steps of 1 / size.
+    """Places from 0 to ``length`` whose spacing follows the wanted size.
 
-    The number of lines is the integral of ``1 / size``; each place is where it reaches a whole.
+    The number of lines is the integral of ``1 / size``, and they lie where it reaches equal steps.
     """
     if not len(focus):
         focus, growth = np.zeros(1), 0.0
-    # The size has kinks at the foci, at their radius and where it stops to grow, half way between
-    # them and at the ends; it is linear or constant between, and so fine a sum that it is smooth.
+    # The size is piecewise linear, with kinks at the foci, at their radius, at its bound, and
+    # midway between foci; the sampling resolves it.
     least, most = sizes
     reach = np.concatenate([[0.0], np.geomspace(min(least, length), length, 4000)])
     around = np.concatenate([focus[:, None] + reach, focus[:, None] - reach]).ravel()

@@ -1,4 +1,4 @@
-"""Radial kernels of meshless weights: value and slope over r in units of the radius, zero at 1."""
+"""Radial kernels of meshless weights: value and derivative by r over the radius; zero at 1."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Kernel = Callable[[Floats], tuple[Floats, Floats]]
 
 
 def cubic_spline(r: Floats) -> tuple[Floats, Floats]:
-    """Return the cubic spline 2/3 - 4 r2 + 4 r3, beyond 1/2: 4/3 (1 - r)^3; twice differentiable.
+    """Return the cubic spline 2/3 - 4 r^2 + 4 r^3, beyond 1/2: 4/3 (1 - r)^3; twice differentiable.
 
     Belytschko, Lu and Gu (1994), eq. 27 in its later form.
     """
@@ -23,7 +23,7 @@ def cubic_spline(r: Floats) -> tuple[Floats, Floats]:
 
 
 def quartic_spline(r: Floats) -> tuple[Floats, Floats]:
-    """Return the quartic spline 1 - 6 r2 + 8 r3 - 3 r4 = (1 - r)^3 (1 + 3 r)."""
+    """Return the quartic spline 1 - 6 r^2 + 8 r^3 - 3 r^4 = (1 - r)^3 (1 + 3 r)."""
     rest = np.maximum(1 - r, 0.0)
     return rest**3 * (1 + 3 * r), -12 * r * rest**2
 

@@ -1,4 +1,4 @@
-"""Edges of a mesh of cells and the cells on their two sides."""
+"""Edges of a mesh of cells, with the cells on both sides."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ class MeshEdges:
     start, end : (M,)
         vertices of each edge.
     left, right : (M,)
-        cells on the left and right hand of start -> end.
+        cells on the left and right of start -> end.
     of_cell : (C, v)
-        the edge from corner ``i`` to corner ``i + 1`` of each cell.
+        edge from corner ``i`` to corner ``i + 1`` of each cell.
     """
 
     start: Ints
@@ -36,7 +36,7 @@ def mesh_edges(cell_vertices: Ints) -> MeshEdges:
     Raises
     ------
     ValueError
-        Two cells have the same edge on the same side: cells overlap, or turn clockwise.
+        Two cells are on the same side of an edge: they overlap, or are clockwise.
     """
     n, corners = cell_vertices.shape
     start = cell_vertices.ravel()

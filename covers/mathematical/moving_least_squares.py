@@ -1,4 +1,4 @@
-"""Meshless covers: discs about nodes with weights by moving least squares or after Shepard."""
+"""Meshless covers: discs about nodes, with weights by moving least squares or Shepard's formula."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ if TYPE_CHECKING:
     from covers.cutting.cut_cells import CutCells
     from covers.mathematical.base import Recut
 
-# Default radius of the discs in spacings of a regular net of nodes, by degree of the basis.
+# Default radius of the discs in spacings of a regular grid of nodes, by degree of the basis.
 RADII = {0: 1.5, 1: 2.0, 2: 3.0, 3: 4.0}
-# Least sum of kernels at a point, and least eigenvalue of scaled moments by degree of the basis.
+# Least sum of kernels at a point, and least eigenvalue of scaled moments, by degree of the basis.
 LEAST_KERNELS = 0.02
 FIXED = {0: 0.0, 1: 1e-2, 2: 1e-3, 3: 1e-4}
-# Discs that are wanted beyond their reach grow by this factor, at most so many times.
+# Factor by which discs are enlarged, and the largest number of times.
 GROWTH, ROUNDS = 1.25, 8
 
 

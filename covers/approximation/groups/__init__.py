@@ -1,1 +1,1 @@
-"""Elements whose approximation has the same shape: values, gradients, integrals."""
+"""Element groups: values, gradients and integrals of elements of the same local functions."""

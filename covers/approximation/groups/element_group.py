@@ -1,10 +1,10 @@
-"""Manifold elements whose approximation has the same shape, as rectangular arrays.
+"""The base of element groups: elements of the same local functions, as rectangular arrays.
 
 On element ``e`` of a group ``u(x) = sum_a d[unknowns[e, a]] T_a(x)`` with
 
     T(x) = [phi_0 I2, phi_1 I2, ...] @ combination        (2, L),
 
-``phi_s`` scalar functions. Everything mechanics needs are integrals of products of the ``phi_s``
+with scalar functions ``phi_s``. All that mechanics needs are integrals of products of the ``phi_s``
 and of their gradients.
 """
 
@@ -29,11 +29,11 @@ class ElementGroup(ABC):
     unknowns
         (n, L) global unknowns of each element.
     combination
-        (2S, L) how unknowns combine the scalar functions; None is the identity, function major
-        and component minor.
+        (2S, L) matrix that combines the scalar functions; None for the identity, with both
+        components of a function next to each other.
     shape
-        (n,) the distinct shape of each element: congruent elements share one, and integrals are
-        given once for each of the d shapes.
+        (n,) number of the shape of each element: congruent elements share one, and integrals are
+        those of each of the d shapes.
     """
 
     elements: Ints
@@ -43,7 +43,7 @@ class ElementGroup(ABC):
 
     @property
     def extends(self) -> bool:
-        """Whether the functions of an element have values beyond it."""
+        """Whether the functions of an element can be extended beyond it."""
         return True
 
     @property
@@ -53,12 +53,12 @@ class ElementGroup(ABC):
 
     @property
     def shape_degree(self) -> int:
-        """Degree that displacements on an element are integrated as: exact for polynomials."""
+        """Degree of displacements on an element for quadrature: exact for polynomials."""
         return 2
 
     @property
     def trace_degree(self) -> int | None:
-        """Degree of displacements along a line as polynomials, None where they are none."""
+        """Degree of displacements along a line; None where they are no polynomials."""
         return None
 
     @property
@@ -69,12 +69,12 @@ class ElementGroup(ABC):
     @property
     @abstractmethod
     def slots(self) -> Ints:
-        """(S,) place of the cover of each weighted monomial among those of an element, else -1."""
+        """(S,) position of the cover of each weighted monomial among an element's; else -1."""
 
     @property
     @abstractmethod
     def carriers(self) -> Ints:
-        """(S,) place of the cover of each function, singular ones too, among an element's."""
+        """(S,) position of the cover of each function, singular ones too, among an element's."""
 
     @abstractmethod
     def values(self, index: Ints, points: Floats) -> Floats:
@@ -92,7 +92,7 @@ class ElementGroup(ABC):
     def lumped_products(self) -> Floats:
         """Integrals of ``w_k f_s f_t`` (d, S, S) of functions of one cover, zero between covers.
 
-        With ``phi_s = w_k f_s`` the sum over all covers is that of products of the local fields,
+        With ``phi_s = w_k f_s``, the sum over all covers is that of products of the local fields,
         each weighted once (Yang, Zheng and Sivaselvan 2017).
         """
 
@@ -114,7 +114,7 @@ class ElementGroup(ABC):
 
     @abstractmethod
     def gradient_rule(self, polygons: Polygons) -> PointRule:
-        """Points that integrate products of two gradients; ``owner`` counts within the group.
+        """Quadrature of products of two gradients; ``owner`` counts within the group.
 
         ``polygons`` are the manifold's elements.
         """

@@ -1,4 +1,4 @@
-"""Physical covers as arrays, and how their unknowns stand together on an element."""
+"""Physical covers as arrays, and their unknowns on an element."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -31,7 +31,7 @@ class PhysicalCovers:
 
 
 def unknowns_of(functions: Sequence[LocalFunctions], covers: PhysicalCovers, active: Ints) -> Ints:
-    """Unknowns (n, L) of elements, cover after cover."""
+    """Return the unknowns (n, L) of elements, cover after cover."""
     first = covers.first_unknown[active]
     return np.concatenate(
         [first[:, [k]] + np.arange(item.n_unknowns) for k, item in enumerate(functions)], axis=1
@@ -39,12 +39,12 @@ def unknowns_of(functions: Sequence[LocalFunctions], covers: PhysicalCovers, act
 
 
 def covers_of(functions: Sequence[LocalFunctions]) -> Ints:
-    """Place (S,) of the cover of each scalar function."""
+    """Return the position (S,) of the cover of each scalar function."""
     return np.repeat(np.arange(len(functions)), [item.n_functions for item in functions])
 
 
 def combined(functions: Sequence[LocalFunctions]) -> Floats | None:
-    """Combination (2S, L) of all covers of an element; None is the identity."""
+    """Return the combination (2S, L) of all covers of an element; None for the identity."""
     if all(item.combination is None for item in functions):
         return None
     size = sum(2 * item.n_functions for item in functions)

@@ -26,9 +26,9 @@ class PolynomialGroup(ElementGroup):
     table
         (d, S, K) coefficients over the monomials of ``matrix (x - origin)``.
     local
-        (d, S, K) the same of the functions without their weights, of degree ``local_degree``.
+        (d, S, K) coefficients of the functions without their weights, of degree ``local_degree``.
     cover
-        (S,) place of each function's cover among those of an element.
+        (S,) position of the cover of each function among those of an element.
     origin, matrix
         (n, 2) and (d, 2, 2) the elements' local coordinates.
     moments
@@ -148,7 +148,7 @@ class PolynomialGroup(ElementGroup):
 
 
 def product_index(degree: int) -> Ints:
-    """Index (K, K) of the product of two monomials up to ``degree`` among those up to twice it."""
+    """Return the numbers (K, K) of products of monomials up to ``degree`` in the graded order."""
     powers = exponents(degree)
     total = powers[:, None, :] + powers[None, :, :]
     order = total.sum(axis=2)

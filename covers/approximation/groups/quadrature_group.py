@@ -1,4 +1,4 @@
-"""Element groups integrated by point rules: weights or local functions that are no polynomials."""
+"""Element groups integrated by quadrature: weights or local functions are not polynomials."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
@@ -17,26 +17,26 @@ FUNCTIONS_AT_ONCE = 40_000
 
 
 class Fields(ABC):
-    """Scalar functions ``phi_s`` on elements, given at points."""
+    """Scalar functions ``phi_s`` on elements, evaluated at points."""
 
     @property
     def extends(self) -> bool:
-        """Whether they have values beyond the element."""
+        """Whether they can be extended beyond the element."""
         return False
 
     @property
     def degree(self) -> int:
-        """Degree of polynomials that come near to them on an element."""
+        """Degree of polynomials that approximate them on an element."""
         return 2
 
     @property
     @abstractmethod
     def cover(self) -> Ints:
-        """(S,) place of the cover of each function among those of an element."""
+        """(S,) position of the cover of each function among those of an element."""
 
     @property
     def monomial_slots(self) -> Ints:
-        """(S,) the same of weighted monomials; -1 for functions that are none."""
+        """(S,) the same for weighted monomials; -1 for other functions."""
         return self.cover
 
     @abstractmethod
@@ -50,7 +50,7 @@ class Fields(ABC):
 
 @dataclass(frozen=True)
 class QuadratureGroup(ElementGroup):
-    """Elements whose functions are known at points.
+    """Elements whose functions are evaluated at quadrature points.
 
     Attributes
     ----------
@@ -59,7 +59,7 @@ class QuadratureGroup(ElementGroup):
     rule
         Points and weights; ``owner`` counts within the group.
     first
-        (d,) for each shape the first element of the group that has it, which is integrated.
+        (d,) first element of the group of each shape, which is integrated.
     """
 
     fields: Fields

@@ -1,4 +1,4 @@
-"""Weights of any mathematical cover times local functions, evaluated at points."""
+"""Weights of any mathematical cover times local functions, at points."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,10 +12,11 @@ from covers.mathematical.base import Cover
 from integration.arrays import Floats, Ints
 from integration.monomials import count, differentiate, evaluate
 
-# Degree beyond that of the polynomials to which weights that are none are integrated: beside cuts 6
-# leave stresses of the patch test 7 % off, 12 2 %, 20 .6 %, 24 .3 %.
+# Degree of the quadrature of weights that are not polynomials, beyond that of the polynomials. In
+# patch tests, stresses beside cuts are off by 7 % with 6, 2 % with 12, 0.6 % with 20, 0.3 % with
+# 24.
 RATIONAL = 20
-# The same along edges, where they are not differentiated, and where fields are carried over.
+# The same along edges, where weights are not differentiated, and in transfers of fields.
 RATIONAL_EDGE = 6
 
 
@@ -28,7 +29,7 @@ class WeightedFields(Fields):
     weighted
         The mathematical cover.
     cells, slots
-        (n,) cell of each element, (n, k) places of its covers among the cell's patches.
+        (n,) cell of each element, and (n, k) positions of its covers among the patches of the cell.
     active
         (n, k) physical covers.
     functions
@@ -46,7 +47,7 @@ class WeightedFields(Fields):
 
     @property
     def extends(self) -> bool:
-        """Polynomial weights do; others know their own cell alone."""
+        """Whether the weights are polynomials; others are defined in their own cell alone."""
         return self.weighted.weight_degree is not None
 
     @property

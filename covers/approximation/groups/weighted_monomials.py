@@ -1,4 +1,4 @@
-"""Element groups from polynomial weights: weight times local function, in element coordinates."""
+"""Element groups of polynomial weights: weights times local functions in element coordinates."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ from integration.polygons import Polygons
 
 @dataclass(frozen=True)
 class Weights:
-    """Polynomial weights on elements: coefficients (d, k, K) in the elements' coordinates."""
+    """Polynomial weights: coefficients (d, k, K) in element coordinates."""
 
     degree: int
     table: Floats
@@ -30,7 +30,7 @@ class Weights:
 
 @dataclass(frozen=True)
 class Shapes:
-    """Elements of a group and the distinct shapes among them.
+    """Elements of a group and their distinct shapes.
 
     Attributes
     ----------
@@ -39,11 +39,11 @@ class Shapes:
     shape
         (n,) shape of each.
     first
-        (d,) for each shape the first element of the group that has it.
+        (d,) first element of the group of each shape.
     origin
-        (n, 2) origin of the elements' coordinates.
+        (n, 2) origin of the coordinates of each element (m).
     matrix
-        (d, 2, 2) their matrix, of one element of the shape for all.
+        (d, 2, 2) matrix of the coordinates, common to all elements of a shape (1/m).
     """
 
     elements: Ints
@@ -61,14 +61,14 @@ def polynomial_group(
     functions: Sequence[LocalFunctions],
     covers: PhysicalCovers,
 ) -> PolynomialGroup:
-    """Build the group of elements on which ``k`` covers are active.
+    """Return the group of elements on which ``k`` covers are active.
 
     Parameters
     ----------
     shapes
         The elements.
     polygons
-        One polygon a shape, that of its first element.
+        The polygon of the first element of each shape.
     active
         (n, k) physical covers of each element.
     weights
@@ -104,7 +104,7 @@ def polynomial_group(
 
 
 def _moments(polygons: Polygons, degree: int, shapes: Shapes) -> Floats:
-    """Moments in the elements' coordinates, in which needles are as well shaped as squares."""
+    """Moments (d, K) in element coordinates, in which slender elements are of unit size."""
     owner = polygons.polygon_of_point
     origin = shapes.origin[shapes.first]
     local = np.einsum("pij,pj->pi", shapes.matrix[owner], polygons.points - origin[owner])

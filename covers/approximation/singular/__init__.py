@@ -1,1 +1,1 @@
-"""Singular points: covers that carry their functions, branches of the angle, point rules."""
+"""Singular points: covers that carry their functions, branches of the angle, quadrature."""

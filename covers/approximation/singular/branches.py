@@ -1,9 +1,9 @@
-"""The branch of the angle about a singular point on each element, continuous within covers.
+"""The branch of the angle about a singular point in each element, continuous within covers.
 
-The angle about the tip of a crack jumps across the crack and nowhere else, however it is kinked,
-curved or ended by another. No formula knows where that is, but the cut does: elements share edges
-where no crack parts them. From element to element of a cover the angle is continued across these
-edges, and the crack that leads to the tip keeps the two sides apart.
+The angle about the tip of a crack must jump across the crack and nowhere else, even if it is
+kinked, curved or ended by another. The topology of the cut shows where that is: elements are joined
+across edges without a crack. The angle is continued from element to element of a cover across these
+edges, and the crack that leads to the tip separates the two sides.
 """
 
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from covers.cutting.cut_cells import CutCells
 from integration.arrays import Bools, Floats, Ints
 from integration.polygons import Polygons
 
-# A vertex this near to the point, in parts of its polygon, is the point.
+# A vertex nearer to the point than this share of the size of its polygon is the point.
 AT = 1e-9
 
 
@@ -28,9 +28,9 @@ class Branches:
     Attributes
     ----------
     bearing
-        (n,) of each place: angles of its element lie within half a turn of it (rad).
+        (n,) central angle of each branch (rad): angles of an element lie within pi of it.
     torn
-        (n,) places of parts in which no continuous angle exists: the way about the point is open,
+        (n,) whether no continuous angle exists in the part: a path about the point is not blocked,
         as about a crack that lies within one cover.
     """
 
@@ -39,12 +39,12 @@ class Branches:
 
 
 def branches(cut: CutCells, item: Enrichment, element: Ints, part: Ints) -> Branches:
-    """Return the branches on places, each an element in a part that hangs together.
+    """Return the branches on n pairs of an element and a connected part.
 
     Parameters
     ----------
     element, part
-        (n,) element and number of the part of each place: a cover, or 0 for all.
+        (n,) element and number of the part of each pair: a cover, or 0 for a single part.
     """
     middle = middles(cut.elements.take(element), item)
     first, second, turns = _edges(cut.joins, item, element, part, middle)
@@ -55,7 +55,7 @@ def branches(cut: CutCells, item: Enrichment, element: Ints, part: Ints) -> Bran
     known[roots] = True
     one, two = np.concatenate([first, second]), np.concatenate([second, first])
     step = np.concatenate([turns, -turns])
-    while True:  # as many passes as elements lie one behind the other
+    while True:  # as many passes as the longest path from element to element
         reached = np.flatnonzero(known[one] & ~known[two])
         if not len(reached):
             break
@@ -67,7 +67,7 @@ def branches(cut: CutCells, item: Enrichment, element: Ints, part: Ints) -> Bran
 
 
 def middles(polygons: Polygons, item: Enrichment) -> Floats:
-    """Middle (n,) of the angles that polygons span about a point, from its bisector (rad)."""
+    """Middle (n,) of the angles that polygons span about a point, from the bisector (rad)."""
     radius, angle = polar(item, polygons.points)
     owner, follower = polygons.polygon_of_point, polygons.next_point
     first = polygons.first_point
@@ -75,10 +75,10 @@ def middles(polygons: Polygons, item: Enrichment) -> Floats:
     there = radius <= AT * size
     turn = near(angle[follower] - angle, np.zeros(len(angle)))
     turn[there | there[follower]] = 0.0
-    # Through a corner at the point the angle goes back by what it has come around the others.
+    # At a corner at the point the angle returns by the sum of the turns at the others.
     whole = np.add.reduceat(turn, first)
     turn[np.flatnonzero(there[follower])] = -whole[owner[there[follower]]]
-    # A ring that begins at the point has no angle there: it begins with the next one's.
+    # A ring that begins at the point has no angle there: take that of the next vertex.
     began = first[there[first]]
     angle = angle.copy()
     angle[began] = angle[follower[began]]
@@ -93,7 +93,7 @@ def middles(polygons: Polygons, item: Enrichment) -> Floats:
 def _edges(
     joins: Joins, item: Enrichment, element: Ints, part: Ints, middle: Floats
 ) -> tuple[Ints, Ints, Floats]:
-    """Pairs of joined places of one part, and the turns by which their angles differ."""
+    """Joined pairs of one part, and the number of turns by which their angles differ."""
     n = 1 + max(int(one.max(initial=-1)) for one in (joins.first, joins.second, element))
     there = np.zeros(n, dtype=bool)
     there[element] = True

@@ -1,4 +1,4 @@
-"""Which covers carry functions of which singular points."""
+"""The covers that carry the functions of singular points."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,23 +11,23 @@ from covers.approximation.singular.enrichment import Enrichment
 from covers.cutting.cut_cells import CutCells
 from integration.arrays import Bools, Floats, Ints
 
-# A vertex this near to a point, in sizes of the domain, is the point.
+# A vertex nearer to a point than this share of the size of the domain is the point.
 SAME_VERTEX = 1e-9
 
 
 @dataclass(frozen=True)
 class Carriers:
-    """Covers with functions of singular points.
+    """Covers with singular functions.
 
     Attributes
     ----------
     points
-        (C, k) singular points that each physical cover carries; -1 fills up rows.
+        (C, k) singular points of each physical cover, padded with -1.
     place, point, bearing
-        (n,) element times the number of covers plus cover, sorted within each point; the point;
-        and the branch of the angle there (`Branches`).
+        (n,) key ``element * C + cover``, sorted within each point; the point; and the branch of the
+        angle there (`Branches`).
     carried
-        (N,) whether the covers about each singular point carry its functions.
+        (N,) whether covers carry the functions of each singular point.
     """
 
     points: Ints
@@ -38,11 +38,11 @@ class Carriers:
 
     @property
     def counts(self) -> Ints:
-        """(C,) how many points each cover carries."""
+        """(C,) number of singular points of each cover."""
         return np.asarray((self.points >= 0).sum(axis=1))
 
     def bearings(self, element: Ints, cover: Ints, point: Ints) -> Floats:
-        """Return the branch (n,) on elements of covers for the points that they carry."""
+        """Return the branch (n,) of the angle about points (n,) on elements (n,) of covers (n,)."""
         n = len(self.points)
         found = np.zeros(len(element))
         for one in np.unique(point):  # a handful of singular points
@@ -53,11 +53,11 @@ class Carriers:
 
 
 def carriers(cut: CutCells, patch_centre: Floats, enrichments: Sequence[Enrichment]) -> Carriers:
-    """Return which covers carry what.
+    """Return the covers with singular functions.
 
-    Covers of the elements that touch a point carry its functions, each of several points if it
-    must; covers within a radius those of the nearest one besides. A point about which a cover has
-    no continuous angle, as about the tip of a crack within one cover, is carried by none.
+    Covers of the elements that touch a point carry its functions, if necessary those of several
+    points; other covers within the radius of a point carry those of the nearest one. A point about
+    which some cover has no continuous angle, as the tip of a crack within one cover, gets none.
     """
     n, chosen = cut.n_covers, _chosen(cut, patch_centre, enrichments)
     places, carried = [], np.ones(len(enrichments), dtype=bool)
@@ -81,7 +81,7 @@ def carriers(cut: CutCells, patch_centre: Floats, enrichments: Sequence[Enrichme
 
 
 def _chosen(cut: CutCells, patch_centre: Floats, enrichments: Sequence[Enrichment]) -> Bools:
-    """Which covers (N, C) are to carry each point: those that touch it, and near ones."""
+    """Return which covers (N, C) shall carry each point: those that touch it, and near ones."""
     centre = patch_centre[cut.cover_patch]
     distance = np.array([np.hypot(*(centre - item.point).T) for item in enrichments])
     within = np.array([item.radius for item in enrichments])[:, None] > distance
@@ -95,21 +95,21 @@ def _chosen(cut: CutCells, patch_centre: Floats, enrichments: Sequence[Enrichmen
 
 
 def _rows(chosen: Bools) -> Ints:
-    """Numbers of the rows of a table (N, C) that are chosen for each column, filled up by -1."""
+    """Numbers (C, k) of the true rows of each column of a table (N, C), padded with -1."""
     most = int(chosen.sum(axis=0).max(initial=0))
     order = np.argsort(~chosen, axis=0, kind="stable")[:most].T
     return np.where(np.take_along_axis(chosen.T, order, axis=1), order, -1)
 
 
 def no_carriers(cut: CutCells) -> Carriers:
-    """Return that no cover carries anything."""
+    """Return covers without singular functions."""
     none = np.empty(0, dtype=np.int64)
     points = np.empty((cut.n_covers, 0), dtype=np.int64)
     return Carriers(points, none, none, np.empty(0), np.empty(0, dtype=bool))
 
 
 def touching_covers(cut: CutCells, point: Floats) -> Ints:
-    """Covers of the elements with a vertex at the point; else of those that it lies in."""
+    """Return the covers of elements with a vertex at the point; else of those that contain it."""
     owner = cut.elements.polygon_of_point
     away = np.hypot(*(cut.elements.points - point).T)
     size = np.hypot(*np.ptp(cut.elements.points, axis=0))

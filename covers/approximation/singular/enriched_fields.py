@@ -1,4 +1,4 @@
-"""Weighted polynomials and, on covers near singular points, their weighted functions besides."""
+"""Weighted polynomials, and weighted singular functions on covers near singular points."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -22,11 +22,11 @@ class EnrichedFields(Fields):
     base
         Polynomials.
     slots
-        (p,) covers of every element that carry functions, once for each point that they carry.
+        (p,) positions of covers with singular functions, once for each of their points.
     enrichments
         All singular points.
     which, bearing
-        (n, p) singular point of each, and the branch of the angle (`singular_fields`).
+        (n, p) singular point of each, and its branch of the angle (`singular_fields`).
     """
 
     base: WeightedFields

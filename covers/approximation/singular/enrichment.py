@@ -20,10 +20,10 @@ class Enrichment:
         (2,) singular point (m) and unit vector of the bisector: ahead of a crack, into the
         material at a corner.
     radius
-        Covers whose centre is nearer (m) are enriched; those of the elements that touch the
-        point always are.
+        Covers whose centre is within it are enriched (m); those of elements that touch the point
+        always are.
     body
-        Only covers of this body; None is all.
+        Body whose covers are enriched; None for all.
     """
 
     functions: SingularFunctions
@@ -34,21 +34,21 @@ class Enrichment:
 
 
 def polar(item: Enrichment, points: Floats) -> tuple[Floats, Floats]:
-    """Distance (m,) from the singular point and angle (m,) from its bisector, within pi."""
+    """Return distance (m,) from the singular point (m) and angle (m,) from its bisector (rad)."""
     along, across = _local(item, points).T
     return np.hypot(along, across), np.arctan2(across, along)
 
 
 def near(angle: Floats, bearing: Floats) -> Floats:
-    """Angles that differ from ``angle`` by whole turns and from ``bearing`` by half a turn."""
+    """Return ``angle`` plus whole turns, so that it is within pi of ``bearing`` (rad)."""
     return np.asarray(bearing + np.mod(angle - bearing + np.pi, 2 * np.pi) - np.pi)
 
 
 def singular_fields(item: Enrichment, points: Floats, bearing: Floats) -> tuple[Floats, Floats]:
-    """Values (m, n, 2) and gradients (m, n, 2, 2) of singular functions in global axes.
+    """Return values (m, n, 2) and gradients (m, n, 2, 2) of singular functions in global axes.
 
-    ``bearing`` (m,) settles on which branch of the angle a point lies: the one within half a turn
-    of it (rad, from the bisector). The two faces of a crack lie on different branches.
+    ``bearing`` (m,) selects the branch of the angle: the one within pi of it (rad, from the
+    bisector). The two faces of a crack lie on different branches.
     """
     d = np.asarray(item.direction, dtype=float)
     turn = np.array([[d[0], -d[1]], [d[1], d[0]]])

@@ -1,4 +1,4 @@
-"""Point rules of elements with singular functions."""
+"""Quadrature of elements with singular functions."""
 
 from collections.abc import Sequence
 
@@ -12,18 +12,19 @@ from integration.polygons import Polygons, diameters
 from integration.rules import PointRule, polygon_rule
 from integration.singular import tip_rule
 
-# Elements nearer to a singular point than this many of their diameters are integrated about it.
+# Elements nearer to a singular point than this multiple of their diameter get a graded rule.
 NEAR_TIP = 1.25
-# Degree beyond that of the polynomials to which functions that are none are integrated.
+# Degree of the quadrature beyond that of the polynomials: far from the point, and for exponents
+# that are no multiples of one half.
 SINGULAR, FRACTIONAL = 8, 8
 
 
 def singular_rule(
     polygons: Polygons, enrichments: Sequence[Enrichment], which: Ints, degree: int
 ) -> PointRule:
-    """Return point rules: graded about singular points that are near, Gauss points elsewhere.
+    """Return a quadrature that is graded about near singular points, and Gaussian elsewhere.
 
-    An element near several points is parted between them, each part nearest to one.
+    An element near several points is divided into the parts nearest to each.
 
     Parameters
     ----------
@@ -38,7 +39,7 @@ def singular_rule(
     away = np.hypot(*np.moveaxis(polygons.centroids[:, None] - place[which], -1, 0))
     near = away < NEAR_TIP * diameters(polygons)[:, None]
     powers = np.array([item.functions.exponent for item in enrichments])
-    # Half powers are integrated exactly, others need more points along the radius.
+    # Multiples of one half are integrated exactly, other powers need more points along the radius.
     more = 0 if np.array_equal(2 * powers, np.round(2 * powers)) else FRACTIONAL
     others = np.flatnonzero(~near.any(axis=1))
     parts, owner, point = _parted(polygons, which, near, away, place)
@@ -50,7 +51,7 @@ def singular_rule(
 def _parted(
     polygons: Polygons, which: Ints, near: Bools, away: Floats, place: Floats
 ) -> tuple[Polygons, Ints, Ints]:
-    """Parts of the elements that are near to points, the element and the point of each."""
+    """Parts of elements near singular points, and the element and the point of each part."""
     held = np.where(near, which, -1)
     closest = np.take_along_axis(
         which, np.argmin(np.where(near, away, np.inf), axis=1)[:, None], axis=1
@@ -73,7 +74,7 @@ def _parted(
 
 
 def _nearest(whole: shapely.Polygon, one: Floats, others: Floats) -> BaseGeometry:
-    """Return the part of a polygon that is nearer to one point than to others (k, 2)."""
+    """Return the part of a polygon that is nearer to one point than to the others (k, 2)."""
     shape: BaseGeometry = whole
     reach = 4 * (whole.length + np.hypot(*(np.array(whole.exterior.coords[0]) - one)))
     for other in others:
@@ -85,7 +86,7 @@ def _nearest(whole: shapely.Polygon, one: Floats, others: Floats) -> BaseGeometr
 
 
 def _joined(first: PointRule, its: Ints, second: PointRule, others: Ints) -> PointRule:
-    """One rule of both, by element: ``its`` and ``others`` are the elements of their polygons."""
+    """Merge two rules; ``its`` and ``others`` are the elements of their polygons."""
     owner = np.concatenate([its[first.owner], others[second.owner]])
     order = np.argsort(owner, kind="stable")
     points = np.concatenate([first.points, second.points])[order]

@@ -1,1 +1,1 @@
-"""A cut by cracks that have grown: cells about their new pieces are cut, all else is kept."""
+"""The local update of a cut after crack growth: only cells about new segments are cut again."""

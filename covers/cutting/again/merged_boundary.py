@@ -1,4 +1,4 @@
-"""Boundary edges and tips that were kept and those that are new."""
+"""Boundary edges and crack tips of an updated cut: merged from kept and new ones."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from covers.cutting.cut_boundary import CrackTips, CutBoundary
 from integration.arrays import Ints
 from integration.permutations import inverse
 
-# What leads from edge to edge.
+# Fields that link edges.
 LINKS = ("next", "previous", "opposite")
 
 
 def merged_boundary(
     old: CutBoundary, local: CutBoundary, parts: MergedElements
 ) -> CutBoundary | None:
-    """Merge edges, bodies still to be filled in; None where they cannot be linked."""
+    """Merge edges, with bodies yet to be filled in; None if they cannot be linked."""
     stays = np.flatnonzero(parts.kept[old.element] >= 0)
     new = np.flatnonzero(parts.fresh[local.element])
     element = np.concatenate([parts.kept[old.element[stays]], parts.made[local.element[new]]])
     start = np.concatenate([old.start[stays], local.start[new]])
     order = np.lexsort((start[:, 1], start[:, 0], element))
     rank = inverse(order)
-    was = np.full(len(old) + 1, -1, dtype=np.int64)  # the last place serves for -1
+    was = np.full(len(old) + 1, -1, dtype=np.int64)  # the last entry is for -1
     was[stays] = rank[: len(stays)]
     now = np.full(len(local) + 1, -1, dtype=np.int64)
     now[new] = rank[len(stays) :]
@@ -48,18 +48,18 @@ def merged_boundary(
 def _linked(
     old: CutBoundary, local: CutBoundary, name: str, was: Ints, now: Ints, n: int
 ) -> Ints | None:
-    """Merged edges (n,) that links of one ``name`` lead to; None where one leads nowhere.
+    """Links (n,) of one ``name`` between merged edges; None if one has no target.
 
-    ``was`` and ``now`` are the numbers of old and local edges, the last place for -1.
+    ``was`` and ``now`` are the merged numbers of old and local edges, with a last entry for -1.
     """
     before, links = getattr(old, name), np.full(n, -1, dtype=np.int64)
     there, stays = np.flatnonzero(now[:-1] >= 0), np.flatnonzero(was[:-1] >= 0)
     links[now[there]] = now[getattr(local, name)[there]]
-    # What led to an edge that is gone leads where the new cut says.
+    # Links to a removed edge are taken from the new cut.
     mine = was[before[stays]]
     links[was[stays]] = np.where(mine >= 0, mine, links[was[stays]])
     lost = (before[stays] >= 0) & (links[was[stays]] < 0)
-    # Only an edge on the outside has none opposite.
+    # Only edges of the outer boundary have no opposite edge.
     alone = name == "opposite" or bool((links >= 0).all())
     return links if alone and not lost.any() else None
 
@@ -67,9 +67,9 @@ def _linked(
 def _twins(
     old: CutBoundary, stays: Ints, local: CutBoundary, beside: Ints, parts: MergedElements
 ) -> tuple[Ints, Ints]:
-    """Old edge (k,) of each local one ``beside`` the new ones, and the rows that have one.
+    """Old edge (k,) of each local edge ``beside`` the new ones, and the rows that have one.
 
-    They are edges of one element that begin in one place.
+    They belong to the same element and start at the same point.
     """
     near = stays[np.isin(parts.kept[old.element[stays]], parts.made[local.element[beside]])]
     rows = [
@@ -88,7 +88,7 @@ def _twins(
 
 
 def merged_tips(old: CrackTips, local: CrackTips, parts: MergedElements) -> CrackTips:
-    """Merge the ends of cracks."""
+    """Merge the crack tips."""
     stays = np.flatnonzero(parts.kept[old.element] >= 0)
     new = np.flatnonzero(parts.fresh[local.element])
     point = np.concatenate([old.point[stays], local.point[new]])

@@ -1,4 +1,4 @@
-"""Bodies and physical covers where part of the elements is new."""
+"""Bodies and physical covers of an updated cut."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from integration.permutations import inverse
 
 
 def merged_bodies(old: CutCells, parts: MergedElements, window: Window) -> Ints:
-    """Body (E,) of each element: as before where the window hangs together, else found anew."""
+    """Return the body (E,) of each element: as before if the window stays connected, else anew."""
     inside = window.around[parts.cell]
     own = np.unique(old.element_body[window.around[old.element_cell]])
     row, joins = _among(inside, parts.joins)
@@ -31,11 +31,11 @@ def merged_bodies(old: CutCells, parts: MergedElements, window: Window) -> Ints:
 def merged_covers(
     cover: Cover, old: CutCells, parts: MergedElements, window: Window
 ) -> tuple[Ints, Ints, Ints]:
-    """Covers (E, k) of the elements, patch (P,) of each, and an element (P,) that it has.
+    """Return the covers (E, k) of elements, and the patch (P,) and an element (P,) of each cover.
 
-    Patches that reach into cells that were cut again are parted anew.
+    Connected parts are found again for patches with cells that were cut again.
     """
-    asked = np.zeros(cover.n_patches + 1, dtype=bool)  # the last place serves for -1
+    asked = np.zeros(cover.n_patches + 1, dtype=bool)  # the last entry is for -1
     asked[cover.cell_patches[window.inner]] = True
     asked[-1] = False
     patches = cover.cell_patches[parts.cell]
@@ -71,6 +71,6 @@ def merged_covers(
 
 
 def _among(chosen: Bools, joins: Joins) -> tuple[Ints, Joins]:
-    """Row (E,) of each chosen element among these, and the joins between them."""
+    """Row (E,) of each chosen element among the chosen ones, and the joins between them."""
     row = np.cumsum(chosen) - 1
     return row, joins.take(chosen[joins.first] & chosen[joins.second])

@@ -1,4 +1,4 @@
-"""Elements that were kept and those that are new, in the order of their cells, and their joins."""
+"""Elements and joins of an updated cut: kept and new ones in the order of their cells."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ from integration.polygons import Polygons
 
 @dataclass(frozen=True)
 class MergedElements:
-    """Elements of a cut that is made again in part.
+    """Elements of an updated cut.
 
     Attributes
     ----------
     elements, cell, region, whole
         As in `covers.cutting.cut_cells.CutCells`.
     joins
-        Pairs of them.
+        Joined pairs of elements.
     kept : (A,)
-        number of each old element, -1 of those that are gone.
+        merged number of each old element, -1 for removed ones.
     made : (B,)
-        number of each element of the window.
+        merged number of each element of the window.
     fresh : (B,)
-        which of these are new; others stand for one that was kept.
+        whether the element of the window is new; else it equals a kept one.
     """
 
     elements: Polygons
@@ -43,16 +43,16 @@ class MergedElements:
 
 
 def merged_elements(old: CutCells, local: Layer, window: Window) -> MergedElements | None:
-    """Merge them; None where those about the new ones are not what they were."""
+    """Merge elements; None if elements about the new ones have changed."""
     pieces = local.pieces
     stays, fresh = ~window.inner[old.element_cell], window.inner[pieces.cell]
     near = np.flatnonzero(stays & window.around[old.element_cell])
     twins = np.flatnonzero(~fresh)
-    # Both are in the order of cells, and of places in a cell.
+    # Both are in the order of cells, and in a fixed order within a cell.
     if pieces.lost or not np.array_equal(old.element_cell[near], pieces.cell[twins]):
         return None
     ringed, found = old.elements.take(near), pieces.elements.take(twins)
-    if not np.array_equal(ringed.points, found.points):  # a closure reaches out of the window
+    if not np.array_equal(ringed.points, found.points):  # a closure extends beyond the window
         return None
     cell = np.concatenate([old.element_cell[stays], pieces.cell[fresh]])
     order = np.argsort(cell, kind="stable")
@@ -75,14 +75,14 @@ def merged_elements(old: CutCells, local: Layer, window: Window) -> MergedElemen
 
 
 def _joins(old: Joins, kept: Ints, local: Joins, made: Ints, fresh: Bools, cut: Bools) -> Joins:
-    """Joins of both; ``cut`` says of the merged elements whether a line touches their cells."""
+    """Merge joins; ``cut`` tells which merged elements lie in cells that a line touches."""
     known = old.take((kept[old.first] >= 0) & (kept[old.second] >= 0))
     new = local.take(fresh[local.first] | fresh[local.second])
     first = np.concatenate([kept[known.first], made[new.first]])
     second = np.concatenate([kept[known.second], made[new.second]])
     start = np.concatenate([known.start, new.start])
     end = np.concatenate([known.end, new.end])
-    # Those of whole cells stay in the order of the mesh, behind the others.
+    # Joins of whole cells follow in the order of the mesh.
     rough = np.flatnonzero(cut[first] | cut[second])
     x, y = start[rough].T
     rough = rough[np.lexsort((y, x, second[rough], first[rough]))]

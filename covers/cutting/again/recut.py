@@ -1,7 +1,7 @@
-"""Cutting by cracks that have grown, to the last bit as if all were cut anew.
+"""Cutting by grown cracks, with the same result to the last bit as cutting everything anew.
 
-The order of elements, edges and covers follows from where they lie (`covers.cutting.pieces`), so
-that what is kept and what is made anew need only be merged.
+The order of elements, edges and covers follows from their places (`covers.cutting.pieces`), so that
+kept and new ones only have to be merged.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ def cut_again(before: Cutting, cracks: Sequence[npt.ArrayLike]) -> Cutting:
     Parameters
     ----------
     before : Cutting
-        the cut so far.
+        the previous cut.
     cracks : sequence of (n, 2)
-        polylines. Where they are those of before with pieces at their ends, inside the regions,
-        cells about these pieces are cut again; else all.
+        polylines. If they are the previous ones with new segments at their ends, inside the
+        regions, only cells about these segments are cut again.
 
     Returns
     -------
@@ -74,8 +74,8 @@ def _arranged(before: Cutting, window: Window) -> Layer:
 
 
 def _merged(before: Cutting, window: Window) -> CutCells | None:
-    """Return the cut; None where what was kept and what is new do not fit."""
-    if not window.inner.any():  # pieces outside all material
+    """Return the merged cut; None if kept and new parts do not fit."""
+    if not window.inner.any():  # new segments outside of all material
         return before.cells
     old, local = before.cells, _arranged(before, window)
     parts = merged_elements(old, local, window)

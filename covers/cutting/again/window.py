@@ -1,4 +1,4 @@
-"""Where a cut by longer cracks differs from the one before: the cells about their new pieces."""
+"""The window of an update: the cells about the new segments of grown cracks."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ from integration.arrays import Bools
 
 @dataclass(frozen=True)
 class Window:
-    """What is to be cut again.
+    """The cells that are cut again.
 
     Attributes
     ----------
     lines : CutLines
-        what cuts the layer now.
+        the lines that cut the layer now.
     inner : (C,)
-        cells whose elements are made anew: those that new pieces touch, and their neighbours, which
-        a closure may give another vertex.
+        cells with new elements: those that new segments touch, and their neighbours, to which a
+        closure may add a vertex.
     around : (C,)
-        these, and all cells that share a vertex with them.
+        the inner cells and all cells that share a vertex with them.
     cracks : Segments
-        those that meet the cells around.
+        the cracks that meet these cells.
     """
 
     lines: CutLines
@@ -39,10 +39,10 @@ class Window:
 
 
 def window_of(before: Cutting, cracks: Segments) -> Window | None:
-    """Return the window; None where the whole is to be cut anew.
+    """Return the window; None if everything must be cut anew.
 
-    That is so where cracks have not only grown, or have grown near the boundary of a region: lines
-    that are longer than the window may be bent outside of it, and cross others an ulp elsewhere.
+    This is so if cracks have not only grown, or have grown near the boundary of a region: lines
+    that extend beyond the window may be bent outside of it, and cross others an ulp away.
     """
     cover, cut = before.cover, before.cells
     if len(before.layers) > 1 or cover.disc_radius is not None or cut.slivers:
@@ -56,9 +56,9 @@ def window_of(before: Cutting, cracks: Segments) -> Window | None:
     near = old.near | touched_cells(cover, fresh, reach, old.chop)
     settled = settled_on(cover, drawn, old.boundary, near, before.moved)
     touched = near | old.rim
-    # Cracks that others meet are bent there, and cross the mesh an ulp elsewhere.
+    # Cracks that meet others are bent there, and may cross the mesh an ulp away.
     met = np.zeros(len(touched), dtype=bool)
-    for moved in _apart(old.cracks, settled):  # those that are gone, and those that have come
+    for moved in _apart(old.cracks, settled):  # removed and added segments
         met |= touched_cells(cover, moved, reach, old.chop)
     inner = touched & (met | _beside(cover, met))
     around = _at_corners(cover, inner)
@@ -70,7 +70,7 @@ def window_of(before: Cutting, cracks: Segments) -> Window | None:
 
 
 def _apart(before: Segments, now: Segments) -> tuple[Segments, Segments]:
-    """Return the segments that are no more, and those that were not before."""
+    """Return the removed and the added segments."""
     rows = [np.column_stack([part.start, part.end, part.owner]) for part in (before, now)]
     _, which = np.unique(np.concatenate(rows), axis=0, return_inverse=True)
     which = which.ravel()

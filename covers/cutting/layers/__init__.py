@@ -1,1 +1,1 @@
-"""One layer of regions: what cuts it, and the elements between these lines."""
+"""One layer of regions: the lines that cut it, and the elements between them."""

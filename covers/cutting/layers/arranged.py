@@ -1,4 +1,4 @@
-"""The elements between lines: one arrangement of all lines, then topology."""
+"""The elements of a layer: an arrangement of all lines, then topology."""
 
 from __future__ import annotations
 
@@ -28,18 +28,18 @@ def arranged(
     group: Ints,
     part: bool = False,
 ) -> Layer:
-    """Return the elements of ``cells``: of touched ones between all lines, of others as a whole.
+    """Return the elements of ``cells``: faces between lines in touched cells, and whole cells.
 
     Parameters
     ----------
     reach : float
-        greatest length of a closure, m.
+        largest length of a closure, m.
     smallest : float
         see `covers.cutting.cut.cut`.
     group : (R,)
-        regions of one number share physical covers.
+        regions of the same number share physical covers.
     part : bool
-        whether others than these cells have material too.
+        whether other cells have material, too.
     """
     mesh = np.unique(cover.edges.of_cell[cells.touched])
     parts = [mesh_segments(cover, mesh), boundary, cracks]

@@ -1,4 +1,4 @@
-"""What cuts a layer of regions: boundaries, settled cracks, and the cells that these touch."""
+"""The lines that cut a layer of regions, and the cells that they touch."""
 
 from __future__ import annotations
 
@@ -15,27 +15,27 @@ from covers.mathematical.base import Cover
 from integration.arrays import Bools, Ints
 from integration.polygons import diameters
 
-# Lines within this many steps of the resolution of a cell touch it.
+# Lines within so many steps of the resolution of a cell touch it.
 TOUCHING_STEPS = 8
-# Cells within so many tolerances of a crack are touched by it, wherever it settles.
+# Cells within so many tolerances of a crack are touched by it, however it is snapped.
 REACH = 3
 
 
 @dataclass(frozen=True)
 class CutLines:
-    """What a layer of regions is cut by, and which cells that touches.
+    """The lines that cut a layer of regions, and the cells that they touch.
 
     Attributes
     ----------
     boundary, drawn, cracks : Segments
-        boundaries of the regions; cracks as they were given, and as they have settled.
+        boundaries of the regions; cracks as given, and after snapping.
     rim, near : (C,)
-        cells that the boundary touches, or that have a corner on the rim of the mesh; and cells
-        that cracks touch.
+        whether the boundary touches the cell or it has a corner on the rim of the mesh; whether
+        cracks touch it.
     cells : Cells
-        the cells that any line touches, and the regions of the others.
+        the cells, with those that any line touches, and the regions of the others.
     chop, margin : float
-        middle and largest size of the cells, m.
+        median and largest size of the cells, m.
     """
 
     boundary: Segments
@@ -56,7 +56,7 @@ def lines_of(
     resolution: Resolution,
     tolerance: float,
 ) -> CutLines:
-    """Return what cuts a layer."""
+    """Return the lines that cut a layer."""
     boundary = domain.boundary(layer)
     members = np.flatnonzero(domain.layer == layer)
     size = diameters(cover.cells)
@@ -73,13 +73,13 @@ def lines_of(
 
 
 def within(cracks: Segments, boundary: Segments, margin: float) -> Segments:
-    """Return cracks clipped to the box of the boundary and a margin."""
+    """Return cracks clipped to the bounding box of the boundary with a margin."""
     low, high = boundary.start.min(axis=0), boundary.start.max(axis=0)
     return clipped(cracks, low - margin, high + margin)
 
 
 def _at_the_rim(cover: Cover) -> Bools:
-    """Cells (C,) with a corner on the rim of the mesh: the boundary runs there, if anywhere."""
+    """Cells (C,) with a corner on the rim of the mesh, where the boundary may run."""
     outer = (cover.edges.left < 0) | (cover.edges.right < 0)
     rim = np.zeros(len(cover.vertices), dtype=bool)
     rim[cover.edges.start[outer]] = rim[cover.edges.end[outer]] = True
@@ -89,13 +89,13 @@ def _at_the_rim(cover: Cover) -> Bools:
 def settled_on(
     cover: Cover, cracks: Segments, boundary: Segments, near: Bools, tolerance: float
 ) -> Segments:
-    """Return cracks settled on the boundary and on the mesh of the cells ``near`` them."""
+    """Return cracks snapped to the boundary and to the mesh of the cells ``near`` them."""
     vertices = np.unique(cover.cell_vertices[near])
     edges = mesh_segments(cover, np.unique(cover.edges.of_cell[near]))
     return settled(cracks, boundary, cover.vertices[vertices], edges, tolerance)
 
 
 def mesh_segments(cover: Cover, edges: Ints) -> Segments:
-    """Return edges of the mesh as segments, each its own owner."""
+    """Return edges of the mesh as segments, with the edge as owner."""
     start, end = cover.edges.start[edges], cover.edges.end[edges]
     return Segments(cover.vertices[start], cover.vertices[end], edges)

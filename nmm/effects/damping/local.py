@@ -73,7 +73,7 @@ class LocalDamping(Effect):
         return found
 
     def _power_of_points(self, state: State) -> Floats:
-        """Return the power (B,) in W that the acceleration gives to the masses at points."""
+        """Return the power (B,) of the inertia of point masses on each body (W)."""
         if self._points is None:
             return np.zeros(0)
         given = state.velocity * (self._points @ state.acceleration)
