@@ -1,7 +1,7 @@
 """Forces that effects apply to the material, as the integrals about crack tips need them."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
@@ -30,6 +30,8 @@ class AppliedForces:
     densities
         Body forces: functions of elements (m,) and points (m, 2) that return densities (m, 2) in
         global axes (N/m3).
+    accelerations
+        Unknowns (n,) of accelerations against which the mass resists (m/s2).
     """
 
     element: Ints
@@ -37,6 +39,7 @@ class AppliedForces:
     end: Floats
     force: Floats
     densities: tuple[Density, ...] = ()
+    accelerations: tuple[Floats, ...] = ()
 
     @classmethod
     def at(cls, element: Ints, position: Floats, force: Floats) -> Self:
@@ -48,6 +51,11 @@ class AppliedForces:
         """Return body forces alone."""
         none = np.zeros((0, 2))
         return cls(np.zeros(0, dtype=np.int64), none, none, none, densities)
+
+    @classmethod
+    def of_acceleration(cls, acceleration: Floats) -> Self:
+        """Return the inertia of an acceleration, unknowns (n,) in body axes, alone."""
+        return replace(cls.of_densities(), accelerations=(acceleration,))
 
     @classmethod
     def on(cls, model: Model, place: Place, force: Floats) -> Self:
@@ -76,7 +84,8 @@ def joined(parts: Iterable[AppliedForces]) -> AppliedForces:
         for name in ("element", "start", "end", "force")
     )
     densities = tuple(density for one in some for density in one.densities)
-    return AppliedForces(element, start, end, force, densities)
+    accelerations = tuple(field for one in some for field in one.accelerations)
+    return AppliedForces(element, start, end, force, densities, accelerations)
 
 
 AppliedForcesIn = Callable[[State], AppliedForces]

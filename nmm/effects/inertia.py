@@ -7,6 +7,7 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from integration.contraction import some
+from nmm.assembly.applied_forces import AppliedForces
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Instant, Setup
@@ -40,6 +41,16 @@ class Inertia(Effect):
         if not (self._axes_turn and some(spin)):
             return np.zeros(self._model.manifold.n_unknowns)
         return product(self.mass, product(self._model.manifold.stretch_modes, spin**2))
+
+    def applied_forces(self, state: State) -> AppliedForces:
+        """See `Effect.applied_forces`: with the pull outwards, in axes that turn."""
+        acceleration, spin = state.acceleration, self.spin(state)
+        if self._axes_turn and some(spin):
+            outwards = product(self._model.manifold.stretch_modes, spin**2)
+            acceleration = acceleration - outwards
+        if not some(acceleration):
+            return AppliedForces.of_densities()
+        return AppliedForces.of_acceleration(acceleration)
 
     def spin(self, state: State) -> Floats:
         """Return the mean angular velocity (B,) of the bodies (rad/s)."""

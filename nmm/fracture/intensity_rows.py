@@ -128,12 +128,14 @@ class IntensityRows:
         return np.asarray(self.stiff / 2 * np.sum(parts, axis=0))
 
     def of_applied_forces(self, pushes: AppliedForces, frames: Frames) -> Floats:
-        """Contribution (2,) of point forces, of tractions on crack faces, and of body forces."""
+        """Contribution (2,) of point forces, tractions on crack faces, body forces and inertia."""
         body = np.full(len(pushes), self.body)
         turned = replace(pushes, force=frames.to_body(body, pushes.force))
         found = self.stiff / 2 * self.interaction.of_point_forces(turned) / self.model.thickness
         for density in pushes.densities:  # one an effect or a field
             found = found + self._of_densities(partial(self._within, density, frames))
+        for acceleration in pushes.accelerations:
+            found = found + self.of_acceleration(acceleration)
         return found
 
     def _within(self, density: Density, frames: Frames, part: ForceWeights) -> Floats:

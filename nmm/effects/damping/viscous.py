@@ -8,6 +8,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
+from nmm.assembly.applied_forces import AppliedForces
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Instant, Setup
@@ -56,6 +57,12 @@ class ViscousDamping(Effect):
         """Whether momentum is lost: by the mass term."""
         return self._mass > 0
 
+    def applied_forces(self, state: State) -> AppliedForces:
+        """See `Effect.applied_forces`: those of mass, as its inertia against ``a v``."""
+        if not self._mass:
+            return AppliedForces.of_densities()
+        return AppliedForces.of_acceleration(self._mass * state.velocity)
+
     def damping(self, state: State) -> csc_array:
         """See `Effect.damping`; always the same object."""
         return self._matrix
@@ -93,6 +100,11 @@ class GroundDamping(ViscousDamping):
         """Return the force (n,) of the velocity of the ground, in the axes of the bodies."""
         return self._push(state, self._velocity(end.time))
 
+    def applied_forces(self, state: State) -> AppliedForces:
+        """See `Effect.applied_forces`: of the velocity against that of the ground."""
+        beside = state.velocity - self._carried(state, self._velocity(state.time))
+        return AppliedForces.of_acceleration(self._mass * beside)
+
     def work(self, before: State, after: State) -> float:
         """Work (J) of the mean of that force at both ends of the step."""
         mean = (self._velocity(before.time) + self._velocity(after.time)) / 2
@@ -119,8 +131,11 @@ class GroundDamping(ViscousDamping):
 
     def _push(self, state: State, velocity: Floats) -> Floats:
         """Force (n,) of the mass term of bodies that move with a velocity (2,) (m/s)."""
-        way, bodies = np.zeros((self._model.manifold.n_bodies, 3)), len(state.frames.centre)
+        return self._mass * product(self._model.mass, self._carried(state, velocity))
+
+    def _carried(self, state: State, velocity: Floats) -> Floats:
+        """Unknowns (n,) of bodies that all move with a velocity (2,)."""
+        bodies = self._model.manifold.n_bodies
+        way = np.zeros((bodies, 3))
         way[:, :2] = state.frames.to_body(np.arange(bodies), np.tile(velocity, (bodies, 1)))
-        return self._mass * product(
-            self._model.mass, self._model.manifold.rigid_modes @ way.ravel()
-        )
+        return product(self._model.manifold.rigid_modes, way.ravel())

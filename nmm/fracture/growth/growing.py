@@ -56,7 +56,7 @@ class GrowingCracks(Effect):
         self._fronts = CrackFronts.of(names).with_born(len(cracks), nuclei)
         self._sofar = GrownSoFar(np.zeros(len(self._fronts)), 0.0) if sofar is None else sofar
         self._tips = self._fronts.tips(setup.model.cut, cracks)
-        self._measured = MeasuredTips(setup, self.rule, self._tips, table.radius, self.held)
+        self._measured = MeasuredTips(setup, self.rule, self._tips, table.radius)
         self._nucleation = CrackNucleation(setup, self.rule.toughness)
 
     @classmethod

@@ -27,8 +27,6 @@ class MeasuredTips:
         (f,) number of the tip of each front in the cut; -1 without a tip.
     radius
         Radius of the domains (m); None for four cells.
-    in_time
-        Whether inertia contributes.
 
     Attributes
     ----------
@@ -38,11 +36,9 @@ class MeasuredTips:
         Stresses and forces that other effects add.
     """
 
-    def __init__(
-        self, setup: Setup, rule: GrowthRule, tips: Ints, radius: float | None, in_time: bool
-    ) -> None:
+    def __init__(self, setup: Setup, rule: GrowthRule, tips: Ints, radius: float | None) -> None:
         self._model, self._rule, self._gravity = setup.model, rule, setup.scene.gravity
-        self._size, self._asked, self._in_time = setup.formulation.cover.size, radius, in_time
+        self._size, self._asked = setup.formulation.cover.size, radius
         self.front = np.flatnonzero(tips >= 0)
         self.tip = tips[self.front]
         self.stresses: Sequence[StressAt] = ()
@@ -102,7 +98,7 @@ class MeasuredTips:
     def _at(
         self, rows: IntensityRows, state: State, pressure: Floats | None, pushes: AppliedForces
     ) -> Floats:
-        """K_I and K_II (2,) of a tip in a state, with weight and inertia (Pa m^1/2)."""
+        """K_I and K_II (2,) of a tip in a state (Pa m^1/2)."""
         found = rows.intensities(state.deformation, pressure) + rows.of_applied_forces(
             pushes, state.frames
         )
@@ -111,6 +107,4 @@ class MeasuredTips:
         if self._gravity is not None:
             body, down = np.array([rows.body]), np.array([self._gravity.acceleration])
             found = found + rows.of_weight(rows.density * state.frames.to_body(body, down)[0])
-        if self._in_time and state.acceleration.any():
-            found = found + rows.of_acceleration(state.acceleration)
         return found
