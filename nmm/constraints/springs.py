@@ -109,7 +109,12 @@ def glue_stiffness(model: Model, interface: Interface, factor: float | None) -> 
 
 
 def _factor(interface: Interface, method: Method) -> float:
-    """Spring in E / h: it must grow as the error of the approximation falls."""
+    """Return the spring in E / h, which must grow as the error of the approximation falls.
+
+    Cells are counted between the outermost quadrature points, short of the ends of the edge by up
+    to 0.4 cells in all: springs are softer by ``(1 - 0.4 / cells)^(degree + 1)`` than by all cells,
+    a fifth with four cells of degree 1, well within what the factor leaves open.
+    """
     if method.stiffness is not None:
         return method.stiffness
     assert method.size is not None
