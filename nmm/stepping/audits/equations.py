@@ -4,6 +4,7 @@ import numpy as np
 
 from nmm.assembly.motion import vertex_points
 from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings
+from nmm.stepping.drive.verdict import CONVERGED
 
 # Residual from which on dependent functions are worth a word.
 NOTICED = 1e-8
@@ -49,9 +50,9 @@ def equations(run: EndedRun) -> Findings:
 
 
 def _rounding(run: EndedRun) -> Findings:
-    """Audit what rounding of the last solution may move, and where most."""
+    """Audit what rounding of the last solution may move, and where most, if it was accepted."""
     changes = run.stepper.rounding_changes()
-    if not changes:
+    if not changes or run.verdict.code != CONVERGED:
         return
     elements = run.stepper.model.manifold.elements
     points = vertex_points(run.stepper.model.manifold)

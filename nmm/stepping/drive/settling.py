@@ -121,9 +121,12 @@ def joined(first: Attempt, then: Attempt) -> Attempt:
 
 
 def may_be_loose(stepper: Stepper, found: "SettledStep") -> bool:
-    """Whether anchors may help a step without equilibrium: not where a bond was to break."""
-    solved = found.attempt.solved
-    stopped = found.attempt.converged or (solved is not None and solved.stopped)
+    """Whether anchors may help a step without equilibrium.
+
+    Not where a bond was to break, or where matter yields along a mechanism.
+    """
+    attempt, solved = found.attempt, found.attempt.solved
+    stopped = attempt.converged or attempt.yields or (solved is not None and solved.stopped)
     return stepper.plan.contact is not None and not stepper.anchored and not stopped
 
 

@@ -39,6 +39,8 @@ class Attempt:
         Work of inertia and contact; None in statics.
     singular
         Whether the load moves a part that nothing holds, or matter flows without end.
+    yields
+        Whether matter yields all along that motion, which anchors would hide.
     imbalances
         Relative out-of-balance force of matter after each iteration; empty where it is linear.
     missed
@@ -56,6 +58,7 @@ class Attempt:
     solved: "ContactSolution | None" = None
     booked: BookedWork | None = None
     singular: bool = False
+    yields: bool = False
     imbalances: tuple[float, ...] = ()
     missed: Floats | None = None
 

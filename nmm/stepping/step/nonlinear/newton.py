@@ -43,6 +43,10 @@ NEARLY, FALLS = 1e-3, 0.1
 # Stiffness against the last iteration's motion, as a share of the elastic one, that shows flow.
 FLOWS = 1e-2
 
+# Share of the elastic stiffness that shows what yielding matter moves along, and that may be left
+# against a mechanism.
+TRACE = 1e-6
+
 
 def newton(
     inner: InternalForces,
@@ -67,7 +71,11 @@ def newton(
         passes += found.passes
         found = with_parts(found, passes=passes, imbalances=tuple(imbalances))
         if not found.converged and not _goes_on(found):
-            return equations, _failed(found, found.sentence, _flow(elastic, line, way, softens))
+            flows = _flow(elastic, line, way, softens)
+            yields = "" if flows or elastic is None else _mechanism(elastic, line, now, solve)
+            if yields:
+                return equations, replace(found, sentence=yields, singular=True, yields=True)
+            return equations, _failed(found, found.sentence, flows)
         then = inner.at(found.increment, now, found.state)
         imbalances.append(inner.imbalance(now, then, scale, equations.force, found.missed))
         found = with_parts(found, imbalances=tuple(imbalances))
@@ -101,6 +109,26 @@ def _failed(found: Attempt, said: str, flows: str) -> Attempt:
     """Return a failed result with its reason; matter that ``flows`` is a mechanism."""
     sentence = f"{flows}; {said}" if flows else said
     return replace(found, sentence=sentence, singular=found.singular or bool(flows))
+
+
+def _mechanism(elastic: csc_array, line: Linearisation, now: Iterate, solve: Solve) -> str:
+    """Say that matter yields all along a motion; empty where none is found.
+
+    With traces of its ``elastic`` stiffness besides, one twice the other, matter moves by what it
+    does not resist once and half of it.
+    """
+    moved = []
+    for trace in (TRACE * elastic, 2 * TRACE * elastic):
+        force = line.force - product(trace, now.increment)
+        moved.append(solve(replace(line, stiffness=line.stiffness + trace, force=force), None)[1])
+    way = moved[0].increment - moved[1].increment
+    left, whole = (float(way @ product(matrix, way)) for matrix in (line.stiffness, elastic))
+    if not all(one.converged for one in moved) or left >= TRACE * whole:
+        return ""
+    return (
+        f"matter yields all along a motion, against which less than {TRACE:.0e} of its elastic "
+        "stiffness is left: its limit load is passed"
+    )
 
 
 def _goes_on(found: Attempt) -> bool:
