@@ -1,1 +1,1 @@
-"""Temperature of a scene: its equations, the effect, and the strain that it makes."""
+"""Heat conduction in a scene, and thermal strain."""

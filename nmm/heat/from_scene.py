@@ -1,4 +1,4 @@
-"""What a scene says of temperature, counted from the reference."""
+"""The heat conduction problem of a scene, in temperatures above the reference."""
 
 from functools import partial
 
@@ -14,12 +14,12 @@ LOOSE = ("heat", "temperature", "add [[temperatures]] or [[convections]], or tra
 
 
 def heat_problem(setup: Setup, space: ScalarSpace) -> DiffusionProblem:
-    """Return the equations of the temperature above the reference.
+    """Return the problem of the temperature above the reference.
 
     Raises
     ------
     SceneError
-        A table that lies on no edge; a block whose steady temperature nothing determines.
+        A table lies on no edge, or nothing determines the steady temperature of a block.
     """
     scene = setup.scene
     assert scene.heat is not None
@@ -49,5 +49,5 @@ def heat_problem(setup: Setup, space: ScalarSpace) -> DiffusionProblem:
 
 
 def _even(value: float, points: Floats) -> Floats:
-    """One value at points (m, 2)."""
+    """Return one value (m,) at points (m, 2)."""
     return np.full(len(points), value)

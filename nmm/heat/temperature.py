@@ -1,4 +1,4 @@
-"""The effect: temperature in the course of a run, and what it does to the blocks."""
+"""The effect: temperature of the blocks during a run, and thermal strain."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from nmm.effects.initial.turning_stress import TurningStress
 
 COLD, AIR = 100.0, (200.0, 400.0)
-"""Temperatures (K) below which one is a difference rather, and those that air and rock have."""
+"""Temperature (K) below which a value is probably a difference, and the range of air and rock."""
 
 
 class Heat(FieldEffect):
@@ -39,21 +39,21 @@ class Heat(FieldEffect):
         conductivity: Floats,
         reference: float = 0.0,
         second: float = 1.0,
-        bends: bool = False,
+        finite: bool = False,
         given: tuple[float, ...] = (),
         at_once: bool = False,
     ) -> None:
         super().__init__(course, strain, conductivity, second)
         self.strain, self._reference, self._given = strain, reference, given
         self._at_once = at_once
-        if bends and strain is not None:
+        if finite and strain is not None:
             from nmm.effects.initial.turning_stress import TurningStress
 
             self._turned = TurningStress.of(strain.model, self.stress_at)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
-        """Build from ``[heat]`` and the tables of what heats and cools."""
+        """Build from ``[heat]`` and the tables of temperatures, fluxes, sources and convection."""
         table = setup.scene.heat
         assert table is not None
         space = ScalarSpace.of(setup.model.manifold)
@@ -64,7 +64,7 @@ class Heat(FieldEffect):
             initial = rise * space.one
         course = course_of(setup, problem, initial, second)
         conductivity = of_elements(setup, "conductivity")
-        bends = setup.kinematics.finite
+        finite = setup.kinematics.finite
         given = (
             *(one.temperature for one in setup.scene.temperatures),
             *(one.temperature for one in setup.scene.convections),
@@ -73,11 +73,11 @@ class Heat(FieldEffect):
         strain = _strain(setup, space)
         first = setup.scene.stages[0] if setup.scene.stages else setup.scene
         moves = setup.scene.inertia is not None and first.duration is not None
-        return cls(course, strain, conductivity, table.reference, second, bends, given, moves)
+        return cls(course, strain, conductivity, table.reference, second, finite, given, moves)
 
     @property
     def caution(self) -> str:
-        """See `Effect.caution`: temperatures of the air beside a reference of nearly nothing."""
+        """See `Effect.caution`: temperatures of air beside a reference near 0 K."""
         lowest, highest = (end((self._reference, *self._given)) for end in (min, max))
         if self.strain is None or lowest >= COLD or not AIR[0] <= highest <= AIR[1]:
             return ""
@@ -89,11 +89,11 @@ class Heat(FieldEffect):
 
     @property
     def turns_with_bodies(self) -> str:
-        """See `Effect.turns_with_bodies`: nothing; its stress turns with what it strains."""
+        """See `Effect.turns_with_bodies`: nothing, as its stress turns with the material."""
         return ""
 
     def begin(self, state: State) -> State:
-        """See `Effect.begin`: in motion heat is there at once, and matter at rest under it."""
+        """See `Effect.begin`: in dynamics heat acts at once, on material at rest under it."""
         matter = None if self.strain is None else self.strain.model.matter
         if not (self._at_once and self.strain is not None and isinstance(matter, Matter)):
             return state
@@ -110,7 +110,7 @@ class Heat(FieldEffect):
         return self.strain.swelling(self.acting(end.time))
 
     def energy(self, state: State) -> float:
-        """Energy (J) of the elastic strain beyond that of the whole strain, ``1/2 e : D e``."""
+        """Energy (J) of the elastic strain minus that of the total strain, ``1/2 e : D e``."""
         if self.strain is None:
             return 0.0
         rise = self.acting(state.time)
@@ -135,7 +135,7 @@ class Heat(FieldEffect):
         return stored - float(push @ (before.deformation + after.deformation)) / 2
 
     def outputs(self, state: State) -> Mapping[str, Quantity]:
-        """Return temperature at the vertices, and the mean flux of elements."""
+        """Return the temperature at vertices and the mean flux of elements."""
         values = self._values(state)
         return {
             "temperature": Quantity("points", values, "K"),
@@ -143,7 +143,7 @@ class Heat(FieldEffect):
         }
 
     def history(self, state: State) -> Mapping[str, float]:
-        """Return extremes, and what was taken up: heat in J since the start, or power in W."""
+        """Return extreme temperatures (K), and heat taken up: J since the start, or W if steady."""
         values = self._values(state)
         extremes = {"lowest": float(values.min()), "highest": float(values.max())}
         return {**extremes, **self.amounts(state)}
@@ -163,12 +163,12 @@ class Heat(FieldEffect):
 
 
 def _strain(setup: Setup, space: ScalarSpace) -> ThermalStrain | None:
-    """Return what temperature does to the blocks; None where no material expands.
+    """Return the thermal strain; None if no material expands.
 
     Raises
     ------
     SceneError
-        A material whose law knows of no swelling, or volumes that are projected.
+        The law of a material does not support it, or volumes are projected.
     """
     scene, model = setup.scene, setup.model
     if not any(item.thermal_expansion for item in scene.materials.values()):

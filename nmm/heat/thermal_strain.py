@@ -1,8 +1,8 @@
-"""The strain that a temperature makes, as a stress that the blocks would have if they were held.
+"""Thermal strain, as the stress of the fully constrained material.
 
-A rise ``t`` strains free material by ``alpha t`` in all directions, and in plane strain by more in
-the plane, ``(1 + nu) alpha t`` where it is alike in all (`nmm.materials.base.Law.free_strain`).
-Held, it has the stress ``- D strain``.
+A temperature rise ``t`` gives free material the strain ``alpha t`` in all directions; in plane
+strain more in the plane, ``(1 + nu) alpha t`` if isotropic (`nmm.materials.base.Law.free_strain`).
+Constrained, it has the stress ``- D strain``.
 """
 
 from dataclasses import dataclass, field
@@ -22,16 +22,15 @@ from nmm.diffusion.matrices import products
 
 @dataclass(frozen=True)
 class ThermalStrain(FieldStress):
-    """What a temperature does to a model.
+    """The thermal strain of a model.
 
     Attributes
     ----------
     expansion
-        (E, 3) strain in the plane for each kelvin (1/K); 0 where laws are not linear.
+        (E, 3) strain in the plane over temperature (1/K); 0 where laws are nonlinear.
     points
-        (Q, n) strain in all three directions, of a unit of the temperature's unknowns, at material
-        points of laws that are not linear: they answer for what is left of the strain. None where
-        there are none.
+        (Q, n) isotropic strain at the material points of nonlinear laws for unit unknowns of the
+        temperature, to be subtracted from the total strain; None without such laws.
     """
 
     expansion: Floats = field(kw_only=True)
@@ -39,7 +38,7 @@ class ThermalStrain(FieldStress):
 
     @classmethod
     def of(cls, space: ScalarSpace, model: Model, expansion: Floats) -> Self:
-        """Make it of a strain (E,) for each kelvin."""
+        """Return it for thermal expansions (E,) (1/K)."""
         free = np.array([law.free_strain(model.plane) for law in model.laws])[model.law]
         points, plane, matter = None, expansion[:, None] * free, model.matter
         if isinstance(matter, Matter):
@@ -51,15 +50,15 @@ class ThermalStrain(FieldStress):
         return cls(space, model, stress, expansion=plane, points=points)
 
     def swelling(self, unknowns: Floats) -> Floats | None:
-        """Strain (Q,) of material points; see `Effect.swelling`."""
+        """Isotropic strain (Q,) of material points; see `Effect.swelling`."""
         return None if self.points is None else np.asarray(self.points @ unknowns)
 
     def energy(self, unknowns: Floats) -> float:
-        """Energy (J) of a temperature (n,) in material that is held."""
+        """Elastic energy (J) of a temperature (n,) in constrained material."""
         return float(unknowns @ (self.held @ unknowns)) / 2
 
     @cached_property
     def held(self) -> csc_array:
-        """(n, n) of material that is held: half its square in the temperature is the energy."""
+        """(n, n) matrix of the energy of constrained material: half its quadratic form."""
         density = (self.expansion * self.stress).sum(axis=1)
         return products(self.space, self.model.thickness * density)

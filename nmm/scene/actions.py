@@ -1,4 +1,4 @@
-"""What happens to the blocks: supports, loads, effects, initial state, what is watched."""
+"""Tables of supports, gravity, loading, initial state, monitors and references."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _HISTORY = "pairs [t, factor] with t increasing"
 
 
 class PlacedTable(Frozen):
-    """Something that acts at a place: a point, a segment, a block, or a part of a block."""
+    """Base of tables that act at a place: a point, a segment, a block, or a part of a block."""
 
     name: Name = Field(description=NAME, examples=["left"])
     point: Point | None = Field(default=None, description="a point [x, y] in m", examples=[[0, 0]])

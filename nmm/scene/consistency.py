@@ -1,7 +1,6 @@
-"""What a scene must not contradict: names that exist, effects that have what they need.
+"""Consistency rules of a scene: names exist, and effects have what they need.
 
-Works on the unvalidated tables, so that these faults are reported together with those of single
-values.
+They work on unvalidated tables, so that their faults are reported together with those of values.
 """
 
 from __future__ import annotations
@@ -35,7 +34,7 @@ _ON_BLOCKS = ("initial_velocities", "initial_stresses", "joint_sets")
 
 
 def contradictions(data: object) -> list[Finding]:
-    """All contradictions of a scene's tables; entries that are malformed are passed over."""
+    """Return all contradictions of the tables of a scene; malformed entries are skipped."""
     plain = _plain(data)
     if not isinstance(plain, Mapping):
         return []
@@ -59,7 +58,7 @@ def contradictions(data: object) -> list[Finding]:
 
 
 def _plain(data: object) -> object:
-    """Tables from tables that may hold models or None (a scene built in Python)."""
+    """Plain tables from tables that may contain models or None, as of a scene built in Python."""
     if isinstance(data, BaseModel):
         return data.model_dump(exclude_unset=True, exclude_none=True, by_alias=True)
     if isinstance(data, Mapping):
@@ -179,7 +178,7 @@ def _effects(data: Tables) -> Iterator[Finding]:
 
 
 def _without_inertia(data: Tables) -> Iterator[Finding]:
-    """What has another clock than time that passes in equilibrium."""
+    """Refuse other clocks beside quasi-static time."""
     if "loading" in data:
         remedy = "remove duration, or [loading]: over time loads follow their history"
         yield ("duration",), "duration with [loading]", "one of the two", remedy

@@ -1,4 +1,4 @@
-"""TOML text -> model, with every fault in one error."""
+"""From TOML text to a model, with all faults in one error."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from nmm.errors import Fault, NmmError
 from nmm.scene.faults import Source, report
 from nmm.scene.fields import DEEPEST
 
-# Model, what its file is called, and keys that it has and files of the other kinds have not.
+# Of each kind of file: its name, and keys that only this kind has.
 OWN_KEYS = {
     "Scene": ("a scene", {"materials", "blocks", "tessellations", "plane"}),
     "Formulation": ("a formulation", {"cover", "integrator", "rotation", "solver", "glue"}),
     "StudyPlan": ("a study", {"scene", "scenes", "vary"}),
 }
 
-# Bytes of a file.
+# Largest size of a file in bytes.
 LARGEST_FILE = 256_000_000
 
 Model = TypeVar("Model", bound=BaseModel)
 
 
 def read_text(path: str | Path, error: type[NmmError]) -> str:
-    """Text of a file.
+    """Return the text of a file.
 
     Raises
     ------
@@ -51,12 +51,13 @@ def read_text(path: str | Path, error: type[NmmError]) -> str:
 
 
 def parse(text: str, model: type[Model], place: str, error: type[NmmError]) -> tuple[Model, Source]:
-    """Model of a TOML text, and where its keys stand.
+    """Return the model of a TOML text, and its source with line numbers.
 
     Raises
     ------
     error
-        The text is no TOML or a file of another kind, or the model refuses it; one fault a line.
+        The text is no TOML, is a file of another kind, or the model refuses it; a line for each
+        fault.
     """
     try:
         data = tomllib.loads(text.removeprefix("\ufeff"))
@@ -72,7 +73,7 @@ def parse(text: str, model: type[Model], place: str, error: type[NmmError]) -> t
 
 
 def build(data: dict[str, Any], model: type[Model], source: Source, error: type[NmmError]) -> Model:
-    """Model of tables."""
+    """Return the model of tables."""
     try:
         return model.model_validate(data)
     except ValidationError as cause:
@@ -82,7 +83,7 @@ def build(data: dict[str, Any], model: type[Model], source: Source, error: type[
 def _refuse_other_kind(
     data: dict[str, Any], model: type[Model], place: str, error: type[NmmError]
 ) -> None:
-    """Say in one line that a file of another kind was given, in place of one line a key."""
+    """Raise one fault for a file of another kind, in place of one for each key."""
     wanted, own = OWN_KEYS.get(model.__name__, ("", data.keys()))
     if data.keys() & own:
         return
@@ -96,7 +97,7 @@ def _deep(place: str) -> Fault:
 
 
 def _shallow(data: dict[str, Any]) -> bool:
-    """Whether lists and tables lie at most `DEEPEST` deep in one another."""
+    """Whether lists and tables are nested at most `DEEPEST` levels deep."""
     level: list[Any] = [data]
     for _ in range(DEEPEST):
         inner = (one.values() if isinstance(one, dict) else one for one in level)

@@ -1,4 +1,4 @@
-"""From the errors of pydantic to a report: one line a fault, with place, value and remedy."""
+"""From errors of pydantic to a report: a line for each fault, with place, value and remedy."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ from nmm.scene.lines import Path, line_numbers
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """Where a model was read: file name and TOML text, scanned for line numbers when first asked.
+    """Source of a model: file name and TOML text, scanned for line numbers when first needed.
 
-    A model that is a part of another's file has its key path there as ``root``.
+    A model that is part of another file has its key path there as ``root``.
     Two sources are always equal, so that equal scenes from different files compare equal.
     """
 
@@ -45,7 +45,7 @@ class Source:
         return f"{where}: {dotted}" if dotted else where
 
     def of_name(self, key: str, name: str, *below: str) -> str:
-        """`place` in the table ``[[key]]`` of a name, wherever it stands among the others."""
+        """`place` in the table ``[[key]]`` of a given name."""
         rows: Any = []
         with suppress(tomllib.TOMLDecodeError):
             rows = tomllib.loads(self.text).get(key, [])
@@ -68,7 +68,7 @@ class Source:
 
 
 def report(error: ValidationError, model: type[BaseModel], source: Source) -> list[Fault]:
-    """All faults of a failed validation of `model`."""
+    """Return all faults of a failed validation of `model`."""
     details = sorted(error.errors(include_url=False), key=lambda item: source.line(*item["loc"]))
     inner = {tuple(item["loc"][:-1]) for item in details}
     # A list that is too short because its items are faulty is not reported twice.
@@ -80,7 +80,7 @@ def report(error: ValidationError, model: type[BaseModel], source: Source) -> li
 
 
 def suggestion(word: str, known: list[str]) -> str:
-    """`did you mean "..."?`, or the list of what is known."""
+    """Return `did you mean "..."?`, or the list of known words."""
     close = difflib.get_close_matches(word, known, n=1, cutoff=0.6)
     if close:
         return f'did you mean "{close[0]}"?'
@@ -108,7 +108,7 @@ def _fault(detail: Any, model: type[BaseModel], source: Source) -> Fault:
 
 
 def _walk(model: type[BaseModel], path: Path) -> Iterator[tuple[type[BaseModel], FieldInfo | None]]:
-    """Model that holds each part of a path, and the field nearest to it."""
+    """Yield the model of each part of a path, and the nearest field."""
     info: FieldInfo | None = None
     is_name = False  # the part after a field of named entries is an entry's name, not a key
     yield model, info

@@ -1,7 +1,7 @@
-"""Building stones of the models: the frozen base and the quantity types.
+"""Building blocks of the models: the frozen base, and the types of quantities.
 
-Every field has a description, written so that it completes "expected ...", and where useful an
-example; the fault report is made of them (see `faults.py`).
+Every field has a description that completes "expected ...", and where useful an example; fault
+reports are made of them (see `faults.py`).
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from pydantic_core import PydanticCustomError
 
 from nmm.scene.units import EXAMPLES, UnitError, convert
 
-# What is further from 1 than this is a slip of the pen, and its products overflow or vanish.
+# Magnitudes beyond these are mistakes, whose products overflow or vanish.
 LARGEST, SMALLEST = 10**30, 1e-30
-# Of things that are counted.
+# Largest count.
 MOST = 10**18
-# Tables within tables; deeper ones are no data of ours.
+# Deepest nesting of tables.
 DEEPEST = 16
 
 
@@ -41,21 +41,21 @@ def fault(value: object, expected: str, remedy: str) -> PydanticCustomError:
 
 @dataclass(frozen=True, slots=True)
 class InUnit(BeforeValidator):
-    """Mark of a type whose values are of a unit, read as numbers in it or as texts.
+    """Marks a type whose values have a unit, read as numbers in it or as texts.
 
     Attributes
     ----------
     unit
-        SI, a key of `nmm.scene.units.COMMON`, or "any".
+        SI unit, a key of `nmm.scene.units.COMMON`, or "any".
     """
 
     unit: str = "1"
 
 
 def quantity(unit: str, smallest: float = 0.0) -> InUnit:
-    """Validator that accepts a number in `unit` or a text of number and unit.
+    """Return a validator that accepts a number in `unit`, or a text of number and unit.
 
-    Its magnitude is at most `LARGEST`, and at least ``smallest`` where it is not zero.
+    Its magnitude is at most `LARGEST`, and zero or at least ``smallest``.
     """
 
     def read(value: object) -> object:
@@ -89,12 +89,12 @@ def _time_or_auto(value: object) -> object:
 
 
 def _listed(value: object) -> object:
-    """Arrays given from Python become lists."""
+    """Convert arrays given from Python to lists."""
     return value.tolist() if hasattr(value, "tolist") else value
 
 
 def plain_data(value: object) -> object:
-    """Refuse what is no number, text, truth value, list or table, or lies too deep."""
+    """Refuse values other than numbers, texts, booleans, lists and tables, and deep nesting."""
     level = [value]
     for _ in range(DEEPEST):
         for item in level:
@@ -120,7 +120,7 @@ def _ring(value: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], 
 
 
 def _within_a_turn(value: float) -> float:
-    """Refuse what is more than a whole turn: degrees that were written without their unit."""
+    """Refuse more than a whole turn: degrees written without their unit."""
     if abs(value) <= math.tau:
         return value
     remedy = 'numbers are radians; write for example "30 deg"'
@@ -155,22 +155,22 @@ AnyQuantity = Annotated[float, quantity("any")]
 
 
 def _countable(number: int) -> int:
-    """Refuse what 64 bits do not hold: counts are kept in arrays. A bound of a field stays."""
+    """Refuse counts beyond 64 bits, as they are kept in arrays."""
     if abs(number) > MOST:
         raise fault(number, f"a whole number of at most {MOST:.0e}", "give a smaller one")
     return number
 
 
-# Strict: 1.5, "3" and true are no numbers of things, "yes" is no truth value.
+# Strict: 1.5, "3" and true are no counts, and "yes" is no boolean.
 Count = Annotated[int, Field(strict=True), AfterValidator(_countable)]
 Flag = Annotated[bool, Field(strict=True)]
 
 
 class Coordinates:
-    """Mark of a type that says where in a scene: its values move when the scene does."""
+    """Marks a type of places, whose values move with the origin of the scene."""
 
 
-# A place. What is only a direction or a way, a displacement, is a pair of lengths.
+# A place. A direction or a displacement is a pair of lengths.
 Point = Annotated[tuple[Coordinate, Coordinate], BeforeValidator(_listed), Coordinates()]
 Segment = Annotated[tuple[Point, Point], BeforeValidator(_listed)]
 Ring = Annotated[
@@ -179,15 +179,15 @@ Ring = Annotated[
 Line = Annotated[tuple[Point, ...], BeforeValidator(_listed), Field(min_length=2)]
 History = Annotated[tuple[tuple[Number, Number], ...], BeforeValidator(_listed)]
 
-# Signs that a terminal, a table of numbers or a file name would take for something else: control
-# and formatting characters, line ends, brackets, quotes, slashes.
+# Characters with another meaning in a terminal, a table of numbers or a file name: control and
+# formatting characters, line ends, brackets, quotes, slashes.
 _STRANGE = r"\p{C}\p{Zl}\p{Zp}\[\]\"/\\"
 # "." and ":" separate parts of names in results ("beam.12", "monitor:top:ux").
 Name = Annotated[str, Field(pattern=rf"^[^.:\s{_STRANGE}][^.:{_STRANGE}]*$")]
 NAME = 'a name without ".", ":", brackets, quotes, slashes and line breaks'
 # A block, or one piece "beam.12" of a tessellated or cut block.
 BlockName = Annotated[str, Field(pattern=rf"^[^.:\s{_STRANGE}][^:{_STRANGE}]*$")]
-# Of a material or an interface.
+# Name of a material or an interface.
 TableName = Annotated[str, Field(pattern=rf"^[^{_STRANGE}]+$", description=NAME)]
 # One line, and a text that may have several.
 Text = Annotated[str, Field(pattern=r"^[^\p{Cc}\p{Zl}\p{Zp}]*$")]
@@ -198,5 +198,5 @@ Options = Annotated[dict[str, Any], BeforeValidator(plain_data)]
 
 
 def example(unit: str) -> list[object]:
-    """Example for a field in `unit`."""
+    """Return an example for a field in `unit`."""
     return [EXAMPLES[unit]]

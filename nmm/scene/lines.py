@@ -1,7 +1,7 @@
 """Line numbers of the keys of a TOML text.
 
-`tomllib` keeps no positions. The text has passed it before it comes here, so this scanner
-trusts the grammar and only follows tables, keys, strings, brackets and line ends.
+`tomllib` keeps no positions. The text has been parsed by it before, so that this scanner relies on
+the grammar and follows only tables, keys, strings, brackets and line ends.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ _TOKEN = re.compile(
 
 
 def line_numbers(text: str) -> dict[Path, int]:
-    """Line (from 1) on which each key path of a valid TOML text begins.
+    """Return the line (from 1) on which each key path of a valid TOML text begins.
 
     Paths are tuples of keys and, in arrays, indices: `("blocks", 2, "vertices", 0)`.
     """
@@ -64,7 +64,7 @@ class _Scanner:
         return path
 
     def _resolve(self, keys: list[str], line: int) -> Path:
-        """A header such as [a.b] below [[a]] means the last element of a."""
+        """Return the path of a header; [a.b] after [[a]] refers to the last element of a."""
         path: Path = ()
         for number, key in enumerate(keys):
             path = (*path, key)
@@ -114,7 +114,7 @@ class _Scanner:
         self.at += 1
 
     def _peek(self, ahead: int = 0) -> str:
-        """Text of a token; a string is shown as a word, so that its content is never a mark."""
+        """Return the text of a token; a string counts as a word: its content is never a mark."""
         if self.at + ahead >= len(self.tokens):
             return ""
         kind, value, _ = self.tokens[self.at + ahead]

@@ -1,4 +1,4 @@
-"""The scene: what happens, whatever the approximation. SI inside, angles in radians."""
+"""The scene: what happens, independent of the approximation. SI units, angles in radians."""
 
 from __future__ import annotations
 
@@ -69,8 +69,8 @@ class Scene(Frozen):
 
     Notes
     -----
-    A scene is consistent when it exists: names refer to something, effects that are named have
-    what they need. Whether its blocks are sound is the matter of `nmm.geometry.regions`.
+    A scene that exists is consistent: names refer to something, and named effects have what they
+    need. Its blocks are checked by `nmm.geometry.regions`.
     """
 
     title: Text = Field(default="", description="a title", examples=["beam"])
@@ -174,13 +174,13 @@ class Scene(Frozen):
 
     @property
     def in_time(self) -> bool:
-        """Whether a clock runs: with inertia, or with a duration in which matter creeps."""
+        """Whether time passes: with inertia, or quasi-statically over a duration."""
         passing = self.duration is not None and self.loading is None
         return self.inertia is not None or passing or any(one.duration for one in self.stages)
 
     @property
     def followed(self) -> bool:
-        """Whether a field of the blocks changes by itself over time."""
+        """Whether a field of the blocks is transient."""
         return any(
             field is not None and field.transient
             for field in (self.heat, self.seepage, self.joint_flow)
@@ -188,7 +188,7 @@ class Scene(Frozen):
 
     @property
     def steady(self) -> bool:
-        """Whether nothing that acts may change with the load factor, by itself or by a history."""
+        """Whether no action changes with the load factor or with a history."""
         given = (getattr(self, name) for name in type(self).model_fields)
         tables = (one for listed in given if isinstance(listed, tuple | list) for one in listed)
         acts = [one for one in tables if isinstance(one, PlacedTable)]
@@ -197,16 +197,16 @@ class Scene(Frozen):
 
     @property
     def source(self) -> Source:
-        """Where the scene was read; `scene.source.place("blocks", 3)` is "file:line: blocks.3"."""
+        """Source of the scene; `scene.source.place("blocks", 3)` is "file:line: blocks.3"."""
         return self._source
 
     def interface(self, first: str, second: str) -> InterfaceTable:
-        """Interface between two materials: the pair's own, else the one of `between = "any"`.
+        """Return the interface between two materials: that of the pair, else of `between = "any"`.
 
         Raises
         ------
         SceneError
-            No interface covers the pair.
+            There is no interface for the pair.
         """
         fallback = None
         for interface in self.interfaces.values():
@@ -224,7 +224,7 @@ class Scene(Frozen):
     @model_validator(mode="wrap")
     @classmethod
     def _consistent(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        """Gather the contradictions and the faults of single values into one error."""
+        """Collect contradictions and faults of single values in one error."""
         details = [_detail(*finding) for finding in contradictions(data)]
         try:
             scene = handler(data)

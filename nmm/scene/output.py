@@ -1,4 +1,4 @@
-"""Which states of a run are stored as frames, and which quantities with them."""
+"""The table ``[output]``: states stored as frames, their quantities, and checkpoints."""
 
 from __future__ import annotations
 
@@ -85,5 +85,5 @@ class OutputTable(Frozen):
 
     @property
     def chooses(self) -> bool:
-        """Whether it says which states are stored."""
+        """Whether it selects the states that are stored."""
         return bool(self.every_time or self.every_steps or self.events)

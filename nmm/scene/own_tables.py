@@ -1,4 +1,4 @@
-"""Tables of a scene whose keys the part that they name declares: effects of one's own."""
+"""Tables of effects of one's own, whose keys the effect declares."""
 
 from __future__ import annotations
 
@@ -22,5 +22,5 @@ class EffectTable(Frozen):
 
     @property
     def given(self) -> dict[str, Any]:
-        """The keys of the table but for its type, as read."""
+        """The keys of the table, its type excepted, as read."""
         return dict(self.__pydantic_extra__)

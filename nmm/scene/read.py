@@ -15,29 +15,29 @@ from nmm.scene.model import Scene
 
 
 def read_scene(path: str | Path) -> Scene:
-    """Scene of a TOML file.
+    """Return the scene of a TOML file.
 
     Raises
     ------
     SceneError
-        All faults of the file, one line each: `file:line: key path: value: expected: remedy`.
+        All faults of the file, a line each: `file:line: key path: value: expected: remedy`.
     """
     return parse_scene(read_text(path, SceneError), str(path))
 
 
 def parse_scene(text: str, place: str = "scene") -> Scene:
-    """Scene of a TOML text; `place` names it in errors."""
+    """Return the scene of a TOML text; `place` names it in errors."""
     scene, source = parse(text, Scene, place, SceneError)
     return _read_from(source, scene)
 
 
 def build_scene(tables: dict[str, Any], place: str = "scene") -> Scene:
-    """Scene of tables as `tomllib` gives them, for scenes made by a program."""
+    """Return the scene of tables as `tomllib` gives them, for scenes made by a program."""
     return _read_from(Source(place), build(tables, Scene, Source(place), SceneError))
 
 
 def _read_from(source: Source, scene: Scene) -> Scene:
-    """Tell a scene, and the formulation in it, where they stand."""
+    """Read the files that a scene names, and set its source and that of its formulation."""
     files = [one.file for one in scene.records.values()]
     if any([*files, *(one.file for one in scene.fields.values())]):
         from nmm.scene.tables.loading.read_files import with_files
@@ -50,10 +50,9 @@ def _read_from(source: Source, scene: Scene) -> Scene:
 
 
 def canonical_text(scene: Scene) -> str:
-    """The scene in one form, whatever its file's order, units and comments.
+    """Return the scene in one form, independent of order, units and comments of its file.
 
-    The default formulation and what is stored are left out: they are no part of what happens. So
-    are tables that are not there.
+    The default formulation, outputs and absent tables are left out.
     """
     empty = {name for name in Scene.model_fields if getattr(scene, name) in ((), {})}
     content = scene.model_dump(
@@ -63,11 +62,11 @@ def canonical_text(scene: Scene) -> str:
 
 
 def scene_hash(scene: Scene) -> str:
-    """SHA-256 of the canonical text, hexadecimal."""
+    """Return the SHA-256 of the canonical text in hexadecimal."""
     return hashlib.sha256(canonical_text(scene).encode()).hexdigest()
 
 
 def json_schema() -> dict[str, Any]:
-    """JSON schema of scene files, for editors."""
+    """Return the JSON schema of scene files, for editors."""
     schema = Scene.model_json_schema(by_alias=True)
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

@@ -1,4 +1,4 @@
-"""The blocks of a scene: given by corners, filled with cells, cut by joints and cracks."""
+"""Tables of the blocks of a scene: by corners, by tessellation, cut by joints and cracks."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What stages must not contradict; works on unvalidated tables as `nmm.scene.consistency` does."""
+"""Consistency rules of stages, on unvalidated tables as in `nmm.scene.consistency`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ BLOCKS = ("blocks", "remove", "add")
 
 
 def stage_contradictions(data: Tables) -> Iterator[Finding]:
-    """Yield what stages name that does not exist, and what does not go with stages."""
+    """Yield names in stages that do not exist, and what is incompatible with stages."""
     stages = _list(data, "stages")
     if not stages:
         return
@@ -62,7 +62,7 @@ def _materials(stage: Tables, path: Path, solids: list[str], known: list[str]) -
 
 
 def _two_clocks(data: Tables, path: Path) -> Iterator[Finding]:
-    """Time that passes in equilibrium, beside that of a field that is followed by load factors."""
+    """Refuse quasi-static time beside a transient field with a clock of its own."""
     for key in ("heat", "seepage", "joint_flow"):
         table = data.get(key)
         if isinstance(table, Mapping) and table.get("transient") is True:

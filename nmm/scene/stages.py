@@ -1,4 +1,4 @@
-"""Stages: which blocks, loads and supports are there one after the other."""
+"""Stages: the blocks, loads, supports and members of successive stages."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ KINDS = {
     "heat": ("temperatures", "heat_fluxes", "heat_sources", "convections"),
     "water": ("water_pressures", "heads", "inflows", "joint_heads"),
 }
-"""Keys of a stage that list names, and the tables of the scene that have them."""
+"""Keys of a stage that list names, and the tables of the scene with these names."""
 
 
 class StageTable(Frozen):
@@ -90,13 +90,13 @@ class StageTable(Frozen):
     )
 
     def lists(self, key: str) -> tuple[str, ...] | None:
-        """Return the names of what acts of a kind of `KINDS`; None where all that did go on."""
+        """Return the names listed under a key of `KINDS`; None where the list does not change."""
         found: tuple[str, ...] | None = getattr(self, key)
         return found
 
     @model_validator(mode="after")
     def _one_way(self) -> StageTable:
-        """Refuse a list of what is there beside what leaves and arrives."""
+        """Refuse a list of all blocks beside lists of removed and added ones."""
         if self.blocks is not None and (self.remove or self.add):
             remedy = "keep blocks, or remove and add"
             raise fault("blocks beside remove or add", "one way to say which are there", remedy)

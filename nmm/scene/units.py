@@ -70,7 +70,7 @@ EXAMPLES: dict[str, str] = {
 
 
 class UnitError(ValueError):
-    """A text that is no quantity of the wanted dimension; carries the two halves of the report."""
+    """A text is no quantity of the wanted dimension; has the two parts of the report."""
 
     def __init__(self, expected: str, remedy: str) -> None:
         self.expected = expected
@@ -79,7 +79,7 @@ class UnitError(ValueError):
 
 
 def convert(text: str, unit: str) -> float:
-    """Value of a quantity written as text, in the SI unit `unit`.
+    """Return the value of a quantity written as text, in the SI unit `unit`.
 
     Parameters
     ----------
@@ -130,9 +130,9 @@ def _by_pint(number: str, name: str, unit: str) -> float:
 def _refuse_other_angle(
     quantity: pint.Quantity[float], name: str, unit: str, expected: str
 ) -> None:
-    """Refuse shares for angles and turns for frequencies, which have one dimension to pint.
+    """Refuse ratios for angles and angular rates for frequencies, of the same dimension to pint.
 
-    A slope of 37 % is no 0.37 rad, 2 Hz are 4 pi rad/s; a stiffness may be one by angle or not.
+    A slope of 37 % is not 0.37 rad, and 2 Hz are 4 pi rad/s; a stiffness may be by angle or not.
     """
     one, other = (
         dict(each.to_base_units().unit_items()).get("radian", 0)
@@ -145,7 +145,7 @@ def _refuse_other_angle(
 
 @cache
 def _registry() -> pint.UnitRegistry[float]:
-    """Return the units that pint knows; to read them takes .2 s."""
+    """Return the units of pint, which take 0.2 s to read."""
     import pint
 
     return pint.UnitRegistry()

@@ -1,4 +1,4 @@
-"""Rows of tables that are not validated yet, which may be anything."""
+"""Rows of unvalidated tables, which may be anything."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from typing import Any
 from nmm.scene.lines import Path
 
 Finding = tuple[Path, str, str, str]
-"""What a rule finds: where, the value, what was expected, what to do."""
+"""A finding of a rule: place, value, what was expected, what to do."""
 
 Tables = Mapping[str, Any]
 
 
 def rows(data: Tables, *keys: str) -> Iterator[tuple[Path, Tables]]:
-    """Yield the rows of ``[[key]]``, key after key, each with its path."""
+    """Yield the rows of the tables ``[[key]]``, each with its path."""
     for key in keys:
         value = data.get(key)
         for index, row in enumerate(value if isinstance(value, list | tuple) else ()):
@@ -23,6 +23,6 @@ def rows(data: Tables, *keys: str) -> Iterator[tuple[Path, Tables]]:
 
 
 def has_clock(data: Tables) -> bool:
-    """Say whether time passes in a scene: with inertia, or in equilibrium over a duration."""
+    """Return whether time passes in a scene: with inertia, or quasi-statically over a duration."""
     whole = "inertia" in data or "duration" in data
     return whole or any("duration" in stage for _, stage in rows(data, "stages"))

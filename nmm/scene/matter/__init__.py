@@ -1,1 +1,1 @@
-"""What blocks are made of, and what is between them: materials and interfaces of a scene."""
+"""Materials and interfaces of a scene."""

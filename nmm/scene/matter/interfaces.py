@@ -1,4 +1,4 @@
-"""Interfaces: laws and constants of joints and contacts between materials."""
+"""Tables of interfaces: laws and constants of joints and contacts between materials."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from nmm.scene.fields import (
 
 
 def _passage(unit: str) -> InUnit:
-    """Validator of what joints let through: a number in ``unit``, or "perfect"."""
+    """Return a validator of conductances: a number in ``unit``, or "perfect"."""
     read = quantity(unit).func
 
     def checked(value: object) -> object:
@@ -92,7 +92,7 @@ class InterfaceTable(Frozen):
     )
     residual_friction_angle: FrictionAngle | None = Field(
         default=None,
-        description="a friction angle in [0, pi/2) rad of broken bonds",
+        description="a friction angle of broken bonds in [0, pi/2) rad",
         examples=example("rad"),
     )
     dilation_angle: FrictionAngle | None = Field(
@@ -101,13 +101,13 @@ class InterfaceTable(Frozen):
     dilation_slip: Length | None = Field(
         default=None,
         gt=0,
-        description="a way slid in m, > 0, after which nothing dilates any more",
+        description="a slip in m, > 0, after which dilation ends",
         examples=["5 mm"],
     )
     damping: Number | None = Field(
         default=None,
         ge=0,
-        description="a share of critical damping of the pressed contact, >= 0",
+        description="a damping ratio of closed contacts, >= 0",
         examples=[0.1],
     )
     restitution: Number | None = Field(
@@ -119,20 +119,20 @@ class InterfaceTable(Frozen):
     )
     conductance: Conductance | None = Field(
         default=None,
-        description='a heat flux for each kelvin between the faces in W/(m2 K), > 0, or "perfect" '
-        "where the temperature is one; edges that blocks share insulate if not given",
+        description='a thermal conductance of the faces in W/(m2 K), > 0, or "perfect" '
+        "for equal temperatures; edges that blocks share insulate if not given",
         examples=["100 W/m^2/K"],
     )
     aperture: Length | None = Field(
         default=None,
         ge=0,
-        description="an aperture in m, >= 0, of the joint as drawn, through which water flows",
+        description="an initial aperture of the joint in m, >= 0, through which water flows",
         examples=["0.2 mm"],
     )
     residual_aperture: Length | None = Field(
         default=None,
         ge=0,
-        description="the least aperture in m, >= 0, that closing leaves; 0 if not given",
+        description="the residual aperture of the closed joint in m, >= 0; 0 if not given",
         examples=["0.02 mm"],
     )
     leakage: Leakage | None = Field(
@@ -157,7 +157,7 @@ class InterfaceTable(Frozen):
         if residual is not None and drawn is not None and residual > drawn:
             value = f"residual_aperture = {residual:g} m, aperture = {drawn:g} m"
             raise fault(value, "what closing leaves of the aperture", "lower it, or raise aperture")
-        # Where faces slide by s under N friction takes N s tan(phi) and lifting N s tan(psi) of it.
+        # Sliding by s under N, friction takes N s tan(phi), and dilation gives back N s tan(psi).
         broken = self.residual_friction_angle
         friction = self.friction_angle if broken is None else min(self.friction_angle, broken)
         if self.dilation_angle is not None and self.dilation_angle > friction:

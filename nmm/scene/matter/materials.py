@@ -1,4 +1,4 @@
-"""Materials: laws and constants of the inside of blocks."""
+"""Tables of materials: laws and constants of the inside of blocks."""
 
 from __future__ import annotations
 
@@ -48,7 +48,8 @@ class Material(Frozen):
     hardening_modulus: Stress | None = Field(
         default=None,
         ge=0,
-        description="a slope of stress over plastic strain in Pa, >= 0; none is perfectly plastic",
+        description="a slope of stress over plastic strain in Pa, >= 0; perfectly plastic if not "
+        "given",
         examples=["2 GPa"],
     )
     softening_energy: SurfaceEnergy | None = Field(
@@ -111,8 +112,7 @@ class Material(Frozen):
     delayed_modulus: Stress | None = Field(
         default=None,
         gt=0,
-        description='a shear modulus in Pa, > 0, of what gives way in time in "standard_solid" and '
-        '"burgers"',
+        description='a delayed shear modulus in Pa, > 0, of "standard_solid" and "burgers"',
         examples=["5 GPa"],
     )
     delayed_viscosity: Annotated[float, quantity("Pa s")] | None = Field(
@@ -158,7 +158,7 @@ class Material(Frozen):
     conductivity: Annotated[float, quantity("W/m/K")] | None = Field(
         default=None,
         gt=0,
-        description="a conductivity of heat in W/(m K), > 0",
+        description="a thermal conductivity in W/(m K), > 0",
         examples=example("W/m/K"),
     )
     heat_capacity: Annotated[float, quantity("J/kg/K")] | None = Field(
@@ -168,7 +168,9 @@ class Material(Frozen):
         examples=example("J/kg/K"),
     )
     thermal_expansion: Annotated[float, quantity("1/K")] | None = Field(
-        default=None, description="a strain for each kelvin in 1/K", examples=example("1/K")
+        default=None,
+        description="a coefficient of thermal expansion in 1/K",
+        examples=example("1/K"),
     )
     hydraulic_conductivity: Annotated[float, quantity("m/s")] | None = Field(
         default=None,

@@ -1,1 +1,1 @@
-"""Tables of a formulation: covers, conditions on edges, steps. What happens is no part of it."""
+"""Tables of a formulation: covers, imposition of edge conditions, steps."""

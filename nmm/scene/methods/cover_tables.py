@@ -1,4 +1,4 @@
-"""The tables of ``[cover]``: which covers a formulation lays, with which local functions."""
+"""The tables of ``[cover]``: type and size of covers, and their local functions."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ from nmm.scene.fields import (
 )
 
 OWN = 'or "module:Name"'
-# Built-in types that carry a rigid motion with strain; all others carry polynomials.
+# Built-in types whose default functions are a rigid motion with strain, not polynomials.
 _OF_BLOCKS = ("block", "sub_blocks")
 
 
 class PartTable(Frozen):
-    """A part that can be exchanged; `options` is checked by the part itself."""
+    """Base of tables of exchangeable parts; `options` is checked by the part itself."""
 
     options: Options = Field(default={}, description="a table of options of the part")
 
@@ -162,7 +162,7 @@ class CoverTable(PartTable):
 
     @property
     def finest(self) -> float | None:
-        """Smallest size of a net (m)."""
+        """Smallest size of a mesh (m)."""
         sizes = [self.size, *(item.size for item in self.nets or ())]
         return min((size for size in sizes if size is not None), default=None)
 
@@ -174,7 +174,7 @@ class CoverTable(PartTable):
     @model_validator(mode="before")
     @classmethod
     def _mesh(cls, data: Any) -> Any:
-        """Meshes carry polynomials unless something else is asked for."""
+        """Give meshes polynomials of degree 1 unless other functions are named."""
         if not isinstance(data, Mapping) or data.get("type", "block") in _OF_BLOCKS:
             return data
         plain = {"functions": "monomials"} if "functions" not in data else {}

@@ -1,4 +1,4 @@
-"""Tables of how conditions on edges are imposed: supports, glued blocks, contact."""
+"""Tables of the imposition of edge conditions: supports, glued blocks, contact."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from pydantic import Field
 from nmm.scene.fields import Count, Frozen, Number, PartName
 from nmm.scene.methods.cover_tables import OWN, PartTable
 
-# Nitsche's ghost term in (lambda + 2 mu) / h^2: measured to keep the matrix positive down to cuts
-# of 1e-6 of a cell.
+# Ghost penalty of Nitsche's method in (lambda + 2 mu) / h^2, which keeps the matrix positive
+# definite down to cuts of 1e-6 of a cell (measured).
 GHOST = 0.5
 
 
@@ -18,7 +18,7 @@ class SupportMethod(Frozen):
     """How supports along edges are imposed; points are held by springs."""
 
     ALWAYS_READ: ClassVar[frozenset[str]] = frozenset({"stiffness"})
-    """Keys that any method goes with: the springs of points."""
+    """Keys that every method uses: the springs of points."""
 
     method: PartName = Field(
         default="auto",
@@ -41,7 +41,7 @@ class Glue(Frozen):
     """How blocks are glued whose interface is bonded and names no stiffness, without contact."""
 
     ALWAYS_READ: ClassVar[frozenset[str]] = frozenset()
-    """Keys that any method goes with."""
+    """Keys that every method uses."""
 
     method: PartName = Field(
         default="auto",

@@ -1,4 +1,4 @@
-"""Tables of how a run goes on: steps in time, how bodies move in them, increments of the load."""
+"""Tables of the steps of a run: integrator, kinematics, load increments, diffusion."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 from nmm.scene.fields import Count, Frozen, Number, PartName, Time, TimeOrAuto, fault
 from nmm.scene.methods.cover_tables import OWN, PartTable
 
-# What says how steps are chosen, beside step = "auto".
+# Keys of adaptive steps, beside step = "auto".
 CHOOSING = ("error", "error_of", "shortest", "longest")
 
 
@@ -67,7 +67,7 @@ class IntegratorTable(PartTable):
 
     @property
     def fixed_step(self) -> float | None:
-        """The length of all steps (s); None where their error chooses."""
+        """The length of all steps (s); None where the error determines it."""
         return None if self.step == "auto" else self.step
 
     @model_validator(mode="after")

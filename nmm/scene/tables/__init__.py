@@ -1,1 +1,1 @@
-"""Tables of a scene that single effects read: one file a subject."""
+"""Tables of a scene that single effects read, a file for each subject."""

@@ -1,4 +1,4 @@
-"""What a field that is solved in blocks, heat or seepage, must not contradict."""
+"""Consistency rules of fields in blocks: heat and seepage."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from nmm.scene.unread_rows import Finding, Tables, rows
 
 
 def durations(data: Tables, key: str) -> Iterator[Finding]:
-    """Yield a duration of ``[key]`` that there is twice, or that is missing."""
+    """Yield a duration of ``[key]`` that is given twice or missing."""
     table = data[key] if isinstance(data[key], Mapping) else {}
     if "inertia" in data and "duration" in table:
         remedy = f"remove it: {key} has the time of the run"
@@ -19,11 +19,11 @@ def durations(data: Tables, key: str) -> Iterator[Finding]:
 
 
 def lacking(data: Tables, given: str, needs: list[str], expected: str) -> Iterator[Finding]:
-    """Yield materials of blocks in which a field is solved that lack its constants.
+    """Yield materials that lack constants of a field that is solved in their blocks.
 
-    ``given`` are the tables that may give it in whole blocks.
+    ``given`` is the table that may prescribe it in whole blocks.
     """
-    # A list, as what stands for a name may be a list or a table yet.
+    # A list, not a set, as unvalidated names may be unhashable.
     known = [row.get("block") for _, row in rows(data, given) if "segment" not in row]
     solved = [
         row.get("material")

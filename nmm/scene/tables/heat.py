@@ -1,4 +1,4 @@
-"""Temperature: what is given of it, what heats and cools, and how long it is followed."""
+"""Tables of heat: prescribed temperatures, fluxes, sources, convection, duration."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class HeatTable(Frozen):
 
 
 class PlacedFlux(PlacedTable):
-    """Something that acts on a part of the boundary or in the volume of blocks."""
+    """Base of tables that act on a part of the boundary or in the volume of blocks."""
 
     @model_validator(mode="after")
     def _at_a_place(self) -> PlacedFlux:

@@ -1,4 +1,4 @@
-"""What heat must not contradict; works on unvalidated tables as `nmm.scene.consistency` does."""
+"""Consistency rules of heat, on unvalidated tables as in `nmm.scene.consistency`."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ PARTS = ("temperatures", "heat_fluxes", "heat_sources", "convections")
 
 
 def heat_contradictions(data: Tables) -> Iterator[Finding]:
-    """Yield what heat lacks, and what is of heat where no heat is named."""
+    """Yield what heat lacks, and tables of heat without ``[heat]``."""
     if "heat" not in data:
         for key in PARTS:
             if data.get(key):

@@ -1,4 +1,4 @@
-"""Water that flows in joints: its viscosity, and the heads that are held at their ends."""
+"""Tables of flow in joints: viscosity, storage, and prescribed heads."""
 
 from __future__ import annotations
 

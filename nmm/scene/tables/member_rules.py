@@ -1,4 +1,4 @@
-"""What tables of members must not contradict; works on unvalidated tables."""
+"""Consistency rules of members, on unvalidated tables."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from nmm.scene.unread_rows import Finding, Tables, rows
 
 
 def member_contradictions(data: Tables) -> Iterator[Finding]:
-    """Yield names that two members have, blocks that do not exist, effects that members need."""
+    """Yield repeated names, blocks that do not exist, and effects that members need."""
     seen: dict[str, str] = {}
     solids = [row.get("name") for key in ("blocks", "tessellations") for _, row in rows(data, key)]
     known = [name for name in solids if isinstance(name, str)]

@@ -1,4 +1,4 @@
-"""What connects points of blocks, or a point and the ground: springs, dashpots, bars, masses."""
+"""Tables of members: springs, dashpots, bars, foundations, masses."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ Mass = Annotated[float, quantity("kg")]
 Area = Annotated[float, quantity("m^2")]
 
 MEMBERS = ("springs", "dashpots", "bars", "foundations", "masses")
-"""Keys of a scene whose tables stages may name as ``members``; all names are different."""
+"""Keys of a scene whose tables stages may name as ``members``; names are unique among them."""
 
 GROUND = "ground"
-"""What stands for the ground where blocks are named."""
+"""Name of the ground where blocks are named."""
 
 _BLOCKS = (
     'names of the blocks that the ends are on, or "ground"; without it the blocks that lie there'
@@ -42,7 +42,7 @@ _BLOCKS = (
 
 
 class TwoEndedTable(Frozen):
-    """Something between two points."""
+    """Base of tables of members between two points."""
 
     name: Name = Field(description=NAME, examples=["anchor"])
     points: Segment = Field(
@@ -178,7 +178,7 @@ class DowelTable(Frozen):
 
 
 def _ends(value: object) -> object:
-    """Two ends alike are written as one word."""
+    """Return two ends, which may be given as one word."""
     return (value, value) if isinstance(value, str) else value
 
 
@@ -253,23 +253,23 @@ class BarTable(TwoEndedTable):
 
     @property
     def section(self) -> float:
-        """Its area, or that of a round bar of its diameter (m2)."""
+        """Cross section: the area, or that of a round bar of the diameter (m2)."""
         return self.area or math.pi * (self.diameter or 0.0) ** 2 / 4
 
     @property
     def thickness(self) -> float:
-        """Its diameter, or that of a round bar of its area (m)."""
+        """The diameter, or that of a round bar of the area (m)."""
         return self.diameter or float((4 * (self.area or 0.0) / math.pi) ** 0.5)
 
     @property
     def bending_stiffness(self) -> float:
-        """``E I`` of one bar (N m2), ``pi d^4 / 64`` the ``I`` of a round one."""
+        """``E I`` of one bar (N m2), with ``I = pi d^4 / 64`` of a round bar by default."""
         given = None if self.dowel is None else self.dowel.bending_stiffness
         return given or self.young_modulus * math.pi * self.thickness**4 / 64
 
     @property
     def held(self) -> tuple[End, End]:
-        """How the ends are held."""
+        """Anchorage of the two ends."""
         if self.ends is not None:
             return self.ends
         return ("fixed", "fixed") if self.bond is None else ("free", "free")

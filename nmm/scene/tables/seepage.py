@@ -1,4 +1,4 @@
-"""Water that seeps through blocks: heads that are held, what flows in, how long it is followed."""
+"""Tables of seepage: prescribed heads, inflows, free surface, duration."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Strength of the blocks of a material, how far they may split, and what they need for it."""
+"""Tables of blocks that split: strength and limits of a material, and their rules."""
 
 from __future__ import annotations
 

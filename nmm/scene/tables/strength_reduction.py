@@ -1,4 +1,4 @@
-"""Strength reduction: by what factor strength may be divided until nothing holds."""
+"""The table ``[strength_reduction]``: the factor of safety by division of strengths."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from nmm.scene.fields import Frozen, Number, fault
 from nmm.scene.lines import Path
 from nmm.scene.unread_rows import Finding, rows
 
-# What a run that is repeated with other strengths cannot be besides.
+# Tables that are incompatible with runs under reduced strengths.
 OTHERS = ("inertia", "duration", "loading", "fracture")
-# The same of tables that are several, and none where the list is empty.
+# The same for tables of several entries.
 SEVERAL = ("splitting",)
 STRENGTHS = ("cohesion", "friction_angle", "tensile_strength", "yield_stress")
 
 
 class StrengthReductionTable(Frozen):
-    """Finds the factor of safety, over which strengths are divided until nothing holds.
+    """Finds the factor of safety, by which strengths are divided until there is no equilibrium.
 
     Cohesion, the tangents of friction angles, tensile strengths and yield stresses of all materials
     and interfaces are divided. A factor holds where the scene finds equilibrium under all its
@@ -46,7 +46,7 @@ class StrengthReductionTable(Frozen):
 
 
 def reduction_contradictions(data: Mapping[str, Any]) -> Iterator[Finding]:
-    """Yield what a scene with ``[strength_reduction]`` must not have, or lacks."""
+    """Yield what a scene with ``[strength_reduction]`` lacks and is incompatible with."""
     if "strength_reduction" not in data:
         return
     place: Path = ("strength_reduction",)

@@ -1,4 +1,4 @@
-"""Water: pressures that are given on edges, in joints and in cracks."""
+"""Tables of given water pressures on edges, in joints and in cracks."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from nmm.scene.fields import (
 )
 
 WATER = 9810.0
-"""Weight of fresh water (N/m3)."""
+"""Unit weight of fresh water (N/m3)."""
 
 
 class WaterPressureTable(PlacedTable):

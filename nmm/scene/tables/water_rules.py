@@ -1,4 +1,4 @@
-"""What water must not contradict; works on unvalidated tables as `nmm.scene.consistency` does."""
+"""Consistency rules of water, on unvalidated tables as in `nmm.scene.consistency`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ PLACED = ("water_pressures", "joint_heads", *SEEPING)
 
 
 def water_contradictions(data: Tables) -> Iterator[Finding]:
-    """Yield what water names that does not exist."""
+    """Yield names in tables of water that do not exist."""
     known = [row["name"] for _, row in rows(data, "cracks") if isinstance(row.get("name"), str)]
     for path, row in rows(data, "water_pressures"):
         name = row.get("crack")
@@ -30,7 +30,7 @@ def water_contradictions(data: Tables) -> Iterator[Finding]:
 
 
 def seepage_contradictions(data: Tables) -> Iterator[Finding]:
-    """Yield what seepage lacks, and what is of seepage where none is named."""
+    """Yield what seepage lacks, and tables of seepage without ``[seepage]``."""
     if "seepage" not in data:
         for key in SEEPING:
             if data.get(key):

@@ -1,1 +1,1 @@
-"""The table of growing cracks, and what it must not contradict."""
+"""Tables of crack growth, nucleation and cohesive zones, and their consistency rules."""

@@ -1,4 +1,4 @@
-"""What bonded cracks lack; works on unvalidated tables."""
+"""Consistency rules of bonded cracks, on unvalidated tables."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from nmm.scene.unread_rows import Finding, Tables, rows
 
 
 def bonded_crack_contradictions(data: Tables) -> Iterator[Finding]:
-    """Yield what cracks lack whose faces begin bonded."""
+    """Yield what is missing for cracks whose faces are bonded at first."""
     for path, row in rows(data, "cracks"):
         if row.get("bonded") is not True:
             continue

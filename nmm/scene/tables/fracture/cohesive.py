@@ -1,4 +1,4 @@
-"""Cohesive zones: how far ahead of the stress faces are laid, and where zones begin."""
+"""The table ``[cohesive_zones]``, and its consistency rules."""
 
 from __future__ import annotations
 
@@ -53,12 +53,12 @@ class CohesiveZonesTable(Frozen):
     )
 
 
-# Tables in whose scenes zones are not defined yet.
-BESIDE = ("fracture", "inertia", "splitting", "heat", "initial_stresses")
+# Tables that are incompatible with cohesive zones.
+BESIDE = ("fracture", "splitting", "heat", "initial_stresses")
 
 
 def cohesive_contradictions(data: Tables) -> Iterator[Finding]:
-    """Yield what ``[cohesive_zones]`` lacks and what stands in its way; on unvalidated tables."""
+    """Yield what ``[cohesive_zones]`` lacks and is incompatible with, on unvalidated tables."""
     table = data.get("cohesive_zones")
     if table is None:
         return

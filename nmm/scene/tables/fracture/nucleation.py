@@ -1,4 +1,4 @@
-"""Nucleation of cracks: the strength that stress reaches over a length, and what begins there."""
+"""The table ``[fracture.nucleation]``: strength, length of the mean, and size of nuclei."""
 
 from __future__ import annotations
 

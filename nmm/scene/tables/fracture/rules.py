@@ -1,4 +1,4 @@
-"""What growth of cracks lacks, and what it does not go with; works on unvalidated tables."""
+"""Consistency rules of crack growth, on unvalidated tables."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from collections.abc import Iterator, Mapping
 from nmm.scene.lines import Path
 from nmm.scene.unread_rows import Finding, Tables, rows
 
-# What running tips alone have: cracks in equilibrium have no speed, and do not divide.
+# Keys of dynamic growth alone.
 IN_TIME = ("speed", "branching")
-# Tables beside which loads alone do not say where the next piece begins.
+# Tables whose actions one load factor does not scale.
 NOT_SCALED = ("contact", "gravity", "heat", "inertia", "initial_stresses", "seepage", "stages")
 
 
 def fracture_contradictions(data: Tables) -> Iterator[Finding]:
-    """Yield what ``[fracture]`` lacks and what stands in its way."""
+    """Yield what ``[fracture]`` lacks and is incompatible with."""
     table = data.get("fracture")
     if table is None:
         return
@@ -60,7 +60,7 @@ def _control(data: Tables) -> Iterator[Finding]:
 
 
 def _driven(support: Mapping[str, object]) -> bool:
-    """Whether a support has a displacement."""
+    """Whether a support has a prescribed displacement."""
     way = support.get("displacement")
     parts = way if isinstance(way, list | tuple) else ()
     return support.get("field") is not None or any(part not in (0, 0.0) for part in parts)

@@ -1,4 +1,4 @@
-"""Growth of cracks: the criterion, the toughness, how far at once and under which loads."""
+"""The table ``[fracture]``: criterion, toughness, length of segments, control."""
 
 from __future__ import annotations
 

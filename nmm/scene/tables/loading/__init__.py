@@ -1,1 +1,1 @@
-"""Tables of loads, what grows in their place, the fields they are given by, files of numbers."""
+"""Tables of loads, of path control and of fields, and files of numbers."""

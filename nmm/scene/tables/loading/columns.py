@@ -1,7 +1,7 @@
-"""Files of numbers in columns, read at the door: every fault by the line of the file.
+"""Files of numbers in columns, with every fault by the line of the file.
 
-Values are parted by blanks, commas, semicolons or tabs. Lines that begin with "#" or "%", empty
-ones, and words at the head are passed over; words further down are faults.
+Values are separated by blanks, commas, semicolons or tabs. Comments after "#" or "%", empty lines
+and a header of words are skipped; words further down are faults.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from nmm.plain_file import plain
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
 _PEER = re.compile(r"NPTS\s*=?\s*(\d+)\s*,?.*?DT\s*=?\s*([\d.eE+-]+)", re.IGNORECASE)
 PEER_ENDINGS = {".at2": "acceleration", ".vt2": "velocity", ".dt2": "displacement"}
-"""What files of the PEER NGA data base hold, by their ending."""
-# A step that is longer than this times the usual one is a gap.
+"""Quantity of files of the PEER NGA data base, by their ending."""
+# A step longer than this multiple of the median is a gap.
 GAP = 1.5
 # Bytes of a file.
 LARGEST_FILE = 256_000_000
@@ -26,12 +26,12 @@ Row = tuple[int, list[float]]
 
 
 def rows_of(path: Path) -> list[Row]:
-    """Return the numbers of each line that has some, with its number.
+    """Return the numbers of each line with numbers, with the number of the line.
 
     Raises
     ------
     SceneError
-        A file that is not there or no text, and all lines that are no numbers.
+        The file does not exist or is no text, or has lines that are no numbers.
     """
     lines = _lines(path)
     faults: list[Fault | str] = []
@@ -54,7 +54,7 @@ def rows_of(path: Path) -> list[Row]:
 
 
 def record_of(path: Path, step: float | None) -> tuple[list[tuple[float, float]], list[float]]:
-    """Return the pairs of time and value of a file, or its values alone, where it has a step.
+    """Return the pairs of time and value of a file, or its values alone if a step is given.
 
     Returns
     -------
@@ -104,7 +104,7 @@ def _peer(path: Path) -> list[tuple[float, float]]:
 
 
 def _check_times(path: Path, rows: list[Row]) -> None:
-    """Refuse times that do not increase, and gaps: a record that lacks lines is another motion."""
+    """Refuse times that do not increase, and gaps, as of missing lines."""
     steps = [after[0] - before[0] for (_, before), (_, after) in pairwise(rows)]
     usual = sorted(steps)[len(steps) // 2] if steps else 0.0
     faults: list[Fault | str] = []

@@ -1,4 +1,4 @@
-"""What grows in a static run in place of the load: ``[loading.control]``."""
+"""The table ``[loading.control]``: path control of a static run."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 
 from nmm.scene.fields import Energy, Frozen, Length, Name, Number, PartName, fault
 
-# Keys that each built-in control asks for, and how many monitors.
+# Keys that each built-in control needs, and its number of monitors.
 NEEDS: dict[str, tuple[tuple[str, ...], int]] = {
     "displacement": (("increment",), 1),
     "opening": (("increment",), 2),

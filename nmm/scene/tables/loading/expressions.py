@@ -1,7 +1,7 @@
-"""Expressions of x, y and t that a scene gives as text: read by a grammar of their own, never run.
+"""Expressions of x, y and t in scenes, read by a grammar of their own and never executed.
 
-Python's parser makes a tree of the text; only the nodes, names and functions that stand here are
-taken, so that no text can call, import, loop or allocate anything. What it is worth is found by
+Python's parser makes a syntax tree of the text. Only the nodes, names and functions listed here are
+allowed, so that no text can call, import, loop or allocate anything. Expressions are evaluated by
 `nmm.effects.loading.evaluation`.
 """
 
@@ -17,7 +17,7 @@ from pydantic import BeforeValidator
 
 from nmm.scene.fields import fault
 
-# Signs and nodes of an expression, and how deep its brackets may lie in one another.
+# Largest number of characters and of nodes of an expression, and deepest nesting of brackets.
 MOST_SIGNS, MOST_NODES, DEEPEST_BRACKETS = 1000, 500, 200
 
 VARIABLES = ("x", "y", "t")
@@ -28,13 +28,13 @@ FUNCTIONS = {
     **dict.fromkeys(("atan2", "hypot", "min", "max"), 2),
     "where": 3,
 }
-"""How many values each function takes."""
+"""Number of arguments of each function."""
 BINARY = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.Pow)
 COMPARED = (ast.Lt, ast.LtE, ast.Gt, ast.GtE)
 
 
 class ExpressionError(ValueError):
-    """A text that is no expression; says what was found in it."""
+    """A text is no expression; tells what was found in it."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Expression:
     Attributes
     ----------
     text
-        As the scene gives it.
+        The text in the scene.
     """
 
     text: str
@@ -56,7 +56,8 @@ class Expression:
         Raises
         ------
         ExpressionError
-            Something else than numbers, x, y, t, pi, e, operators and functions of the table.
+            It contains anything but numbers, x, y, t, pi, e, operators and the functions of the
+            table.
         """
         made = cls(text)
         _check(made.tree)
@@ -64,13 +65,13 @@ class Expression:
 
     @property
     def varies(self) -> bool:
-        """Whether it depends on the time."""
+        """Whether it depends on time."""
         names = (node.id for node in ast.walk(self.tree) if isinstance(node, ast.Name))
         return "t" in names
 
     @cached_property
     def tree(self) -> ast.expr:
-        """What Python's parser makes of the text."""
+        """Syntax tree of the text."""
         if len(self.text) > MOST_SIGNS:
             raise ExpressionError(f"{len(self.text)} signs, more than {MOST_SIGNS}")
         try:
@@ -80,7 +81,7 @@ class Expression:
 
 
 def _check(tree: ast.expr) -> None:
-    """Refuse all that is not in the grammar."""
+    """Refuse everything outside of the grammar."""
     if sum(1 for _ in ast.walk(tree)) > MOST_NODES:
         raise ExpressionError(f"more than {MOST_NODES} parts")
     _check_node(tree, 0)
@@ -122,7 +123,7 @@ def _parts(node: ast.AST) -> list[ast.expr]:
 
 
 def _read(value: object) -> object:
-    """Two expressions as texts, or a name; refuse all else."""
+    """Return two expressions as texts, or a name; refuse everything else."""
     if isinstance(value, str):
         return value
     if not isinstance(value, list | tuple) or len(value) != 2:

@@ -1,4 +1,4 @@
-"""Tables of values over places and times, that loads and supports name as fields."""
+"""Tables of values over places and times, which loads and supports name as fields."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class FieldTable(Frozen):
 
 
 def check_rows(rows: tuple[tuple[float, ...], ...]) -> None:
-    """Refuse rows of other widths, or fewer than two.
+    """Refuse rows of wrong or different widths, and fewer than two rows.
 
     Raises
     ------

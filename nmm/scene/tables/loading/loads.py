@@ -1,4 +1,4 @@
-"""Loads: at points, along edges, on volume, turning with a surface, travelling."""
+"""Tables of loads: at points, along edges, on volume, follower pressures, moving forces."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from nmm.scene.tables.loading.expressions import FieldOf
 
 
 class _Kind(NamedTuple):
-    """What a load of a kind has: one of these magnitudes, one of these places."""
+    """The magnitudes and the places of a kind of load, one of each."""
 
     magnitudes: tuple[str, ...]
     places: tuple[tuple[str, ...], ...]

@@ -1,6 +1,6 @@
-"""What a scene takes from files beside it, taken into it: a scene is complete by itself.
+"""Numbers of files beside a scene, read into it, so that a scene is complete by itself.
 
-Run folders, hashes and published cases then hold the numbers and depend on no other file.
+Run folders, hashes and published cases then contain the numbers and depend on no other file.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def with_files(scene: Scene, source: Source) -> Scene:
     Raises
     ------
     SceneError
-        Every fault of every file, by its line and that of the scene that names the file.
+        All faults of all files, by their line and that of the scene.
     """
     faults: list[Fault | str] = []
     records = _all("records", scene.records, _record, source, faults)
@@ -47,7 +47,7 @@ def _all(
     source: Source,
     faults: list[Fault | str],
 ) -> dict[str, Table]:
-    """Read the files of tables; gather what is wrong."""
+    """Read the files of tables, and collect faults."""
     found, folder = dict(tables), Path(source.name).parent
     for name, table in tables.items():
         if table.file is not None:
@@ -70,9 +70,9 @@ def _record(table: RecordTable, path: Path) -> RecordTable:
 
 
 def _refuse_peer(table: RecordTable, path: Path) -> None:
-    """Refuse what a file of PEER's data base says itself, and a unit that is left open.
+    """Refuse keys that contradict a file of PEER's data base, and a missing unit.
 
-    Its numbers are shares of g, or cm/s and cm: no unit is none of SI there.
+    Its numbers are in g, cm/s or cm, so that a missing unit must not mean SI.
     """
     holds = PEER_ENDINGS.get(path.suffix.lower())
     if holds is None:

@@ -1,1 +1,1 @@
-"""Tables of what shakes the ground, what lets waves out, and what damps motion."""
+"""Tables of ground motion, absorbing boundaries and damping."""

@@ -1,4 +1,4 @@
-"""Boundaries of ground that goes on: dashpots that take waves, and the free field beside them."""
+"""Tables of absorbing boundaries: viscous boundaries and free fields."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Damping of the motion of matter: by mass, by stiffness, by ratios at two frequencies, local."""
+"""The table ``[damping]``: Rayleigh damping and local damping."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ Frequency = Annotated[float, quantity("1/s"), BeforeValidator(_no_angle)]
 
 
 class DampingTable(Frozen):
-    """What slows the motion of matter besides friction; needs inertia.
+    """Damping of the motion of the material; needs inertia.
 
-    Viscous damping is `mass` times the mass and `stiffness` times the elastic stiffness of the
-    material, given by themselves or by the ratios of critical damping at two frequencies
-    (Rayleigh). Local damping makes what speeds up heavier by 1 / (1 - `local`) and what slows down
-    lighter by 1 / (1 + `local`): it takes energy at every frequency alike and is for coming to
-    rest. A body that falls freely falls with (1 - `local`) of its weight.
+    Viscous (Rayleigh) damping is `mass` times the mass plus `stiffness` times the elastic stiffness
+    of the material, given by these factors or by damping ratios at two frequencies. Local damping
+    multiplies the mass by 1 / (1 - `local`) while it accelerates and by 1 / (1 + `local`) while it
+    decelerates: it dissipates energy at every frequency alike, and is for coming to rest. A body in
+    free fall falls with (1 - `local`) of its weight.
     """
 
     mass: Rate | None = Field(
@@ -81,7 +81,7 @@ class DampingTable(Frozen):
 
     @property
     def coefficients(self) -> tuple[float, float] | None:
-        """Factors of mass (1/s) and stiffness (s); None where no viscous damping is given."""
+        """Factors of mass (1/s) and stiffness (s); None without viscous damping."""
         if self.ratios is not None and self.frequencies is not None:
             return rayleigh(self.ratios, self.frequencies)
         if self.mass is None and self.stiffness is None:
@@ -105,7 +105,7 @@ def _check_rayleigh(ratios: tuple[float, float], hertz: tuple[float, float]) -> 
     if min(hertz) <= 0 or hertz[0] == hertz[1]:
         raise fault(list(hertz), "two different frequencies > 0", "correct the frequencies")
     mass, stiffness = rayleigh(ratios, hertz)
-    # Rounding of two products of like size.
+    # Rounding of two products of similar size.
     if mass < -1e-12 * max(ratios) * max(hertz) or stiffness < -1e-12 * max(ratios) / min(hertz):
         low, high = min(hertz) / max(hertz), max(hertz) / min(hertz)
         shown = f"ratios {list(ratios)} at {list(hertz)} Hz"

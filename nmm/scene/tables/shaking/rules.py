@@ -1,4 +1,4 @@
-"""What motions of the ground, dampers and moving loads must not contradict.
+"""Consistency rules of ground motion, damping and moving loads.
 
 Works on unvalidated tables as `nmm.scene.consistency` does.
 """
@@ -15,7 +15,7 @@ EDGES = ("viscous_boundaries", "free_fields")
 
 
 def motion_contradictions(data: Tables) -> Iterator[Finding]:
-    """Yield records that are not there, and what moves in scenes without time."""
+    """Yield records that do not exist, and motion in scenes without time."""
     if "damping" in data and "inertia" not in data:
         yield ("damping",), "no [inertia]", "a dynamic scene", "add [inertia], or remove [damping]"
     yield from _moving_ground(data)
@@ -37,7 +37,7 @@ def motion_contradictions(data: Tables) -> Iterator[Finding]:
 
 
 def _moving_ground(data: Tables) -> Iterator[Finding]:
-    """Yield the ground of damping that is no moving support."""
+    """Yield a ground of damping that is no moving support."""
     damping = data.get("damping")
     name = damping.get("ground") if isinstance(damping, Mapping) else None
     moving = [row.get("name") for _, row in rows(data, "supports") if row.get("motion")]
@@ -48,7 +48,7 @@ def _moving_ground(data: Tables) -> Iterator[Finding]:
 
 
 def _bases(data: Tables) -> Iterator[Finding]:
-    """Yield bases of free fields that are no boundary and no moving support."""
+    """Yield bases of free fields that are neither a boundary nor a moving support."""
     bases = [row.get("name") for _, row in rows(data, "viscous_boundaries")]
     bases += [row.get("name") for _, row in rows(data, "supports") if row.get("motion")]
     for path, row in rows(data, "free_fields"):
@@ -60,7 +60,7 @@ def _bases(data: Tables) -> Iterator[Finding]:
 
 
 def _fields(data: Tables) -> Iterator[Finding]:
-    """Yield tables of fields that are not there, and forces that travel without time."""
+    """Yield fields that do not exist, and moving forces without time."""
     known = data.get("fields")
     names = list(known) if isinstance(known, Mapping) else []
     timed = has_clock(data)
