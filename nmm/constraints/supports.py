@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.stress_points import StressAt
@@ -45,10 +46,11 @@ class Supports(TiedInterfaces):
         state: State,
         in_time: bool = False,
         turning: Model | None = None,
+        model: Model | None = None,
     ) -> None:
         held = [_anchored(one, state) for one in _sharing(supports)]
         super().__init__(held, n_unknowns, turning)
-        self._in_time = in_time
+        self._in_time, self._model = in_time, model
         grounds = [tie.interface.displacement for tie in self.ties]
         self._grounds = [ground for ground in grounds if isinstance(ground, Ground)]
         self._still = in_time and self.steady and len(self._grounds) == len(grounds)
@@ -70,8 +72,8 @@ class Supports(TiedInterfaces):
         for i, support in zip(edges, along, strict=True):
             found[i] = support
         n_unknowns, in_time = setup.model.manifold.n_unknowns, scene.inertia is not None
-        model = turning(setup) if _lets_turn(setup.model, interfaces) else None
-        return cls(found, n_unknowns, setup.start, in_time, model)
+        turns = turning(setup) if _lets_turn(setup.model, interfaces) else None
+        return cls(found, n_unknowns, setup.start, in_time, turns, setup.model)
 
     def follow(self, change: "Change") -> "Supports":
         """Return the supports of the new model; those that are new hold the material as it is.
@@ -161,11 +163,19 @@ class Supports(TiedInterfaces):
 
     def reactions(self, state: State) -> dict[str, Floats]:
         """Return the force (2,) in N that each support exerts on the bodies."""
-        found = {}
+        found = self._at_points(state)
+        return {tie.interface.name: forces.sum(axis=0) for tie, forces in found}
+
+    def applied_forces(self, state: State) -> AppliedForces:
+        """See `Effect.applied_forces`: what supports exert within bodies and on crack faces."""
+        assert self._model is not None
+        found, model = self._at_points(state), self._model
+        return joined(AppliedForces.on(model, tie.interface.first, one) for tie, one in found)
+
+    def _at_points(self, state: State) -> Iterator[tuple[Imposition, Floats]]:
+        """Yield each support with its forces (m, 2) on the bodies at its points (N)."""
         for tie, jump in self._each(state, Instant.of(state)):
-            forces = self._with_added(tie.point_forces(state, jump), tie, state)
-            found[tie.interface.name] = forces.sum(axis=0)
-        return found
+            yield tie, self._with_added(tie.point_forces(state, jump), tie, state)
 
     def _with_added(self, forces: Floats, tie: Imposition, state: State) -> Floats:
         """Forces (m, 2) in N with those of stresses that other effects add."""

@@ -6,6 +6,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Floats
+from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.kept import KeptOfStates
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Setup, Span, StepForce
@@ -66,6 +67,11 @@ class PointDashpots(Effect):
     def loss(self, before: State, after: State) -> float:
         """See `Effect.loss`."""
         return float(self._mean(before, after) @ self._elongation(before, after))
+
+    def applied_forces(self, state: State) -> AppliedForces:
+        """See `Effect.applied_forces`: those of the step that ended at the state."""
+        pull = self._last(state)[:, None] * self.links.lines(state).along
+        return joined([self.links.first.pushed(pull), self.links.second.pushed(-pull)])
 
     def forget(self) -> None:
         """See `Effect.forget`."""
