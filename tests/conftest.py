@@ -1,6 +1,9 @@
 """Settings of all tests, and a made-up run for the tests of results, plots and command line."""
 
+import importlib.util
 import os
+import sys
+from pathlib import Path
 
 os.environ.setdefault("MPLBACKEND", "Agg")
 os.environ.setdefault("OMP_NUM_THREADS", "1")
@@ -157,6 +160,29 @@ def bar(length=4, poisson=0.3, fix='["x", "y"]', traction="[1e-3, 0]", more="", 
 def bar_text():
     """The function that writes the scene of a bar."""
     return bar
+
+
+@pytest.fixture(scope="session")
+def script():
+    """The function that runs a file of Python and returns it as a module."""
+
+    def run(path):
+        spec = importlib.util.spec_from_file_location(path.stem, path)
+        module = sys.modules[spec.name] = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        return module
+
+    return run
+
+
+@pytest.fixture
+def benchmarks(monkeypatch):
+    """Modules of the folder benchmarks can be imported, anew in every test."""
+    folder = Path(__file__).resolve().parents[1] / "benchmarks"
+    monkeypatch.syspath_prepend(str(folder))
+    yield
+    for path in folder.glob("*.py"):
+        sys.modules.pop(path.stem, None)
 
 
 @pytest.fixture(scope="session")

@@ -1,6 +1,5 @@
 """What the manual shows works as it stands there."""
 
-import importlib.util
 import re
 import sys
 import types
@@ -135,11 +134,8 @@ def test_every_room_is_on_the_way_of_a_scene():
     assert not [path for path in paths if path not in page]
 
 
-def test_pages_of_keys_are_those_of_the_models_that_read_the_files():
-    spec = importlib.util.spec_from_file_location("keys", ROOT / "docs/keys.py")
-    keys = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(keys)
-    for name, text in keys.pages().items():
+def test_pages_of_keys_are_those_of_the_models_that_read_the_files(script):
+    for name, text in script(ROOT / "docs/keys.py").pages().items():
         assert (ROOT / "docs" / name).read_text() == text, "write it anew: python docs/keys.py"
 
 

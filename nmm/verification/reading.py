@@ -35,6 +35,16 @@ def momentum(run: "Run") -> Floats:
     return whole_momentum(stepper.model, run.state, np.zeros(2), stepper.kinematics.finite)
 
 
+def energy_gain(run: "Run") -> float:
+    """Largest energy, with the losses of friction and less the work of loads, over the start's (J).
+
+    Nothing but an error can make it positive.
+    """
+    h = run.history
+    stored = h["strain_energy"] + h["contact_energy"] + h["support_energy"] + h["kinetic_energy"]
+    return float((stored + h["friction_loss"] - h["external_work"]).max())
+
+
 def masses(run: "Run") -> Floats:
     """Mass (B,) of the bodies (kg), one element each."""
     model = run.stepper.model

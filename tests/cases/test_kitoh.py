@@ -1,7 +1,6 @@
 """The Kitoh beam (benchmark C1): failure loads beside an independent program's and beam theory."""
 
-import importlib.util
-import sys
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
@@ -15,14 +14,8 @@ SCRIPT = Path(__file__).parents[2] / "examples" / "kitoh_beam" / "failure_loads.
 
 
 @pytest.fixture(scope="module")
-def beams() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("failure_loads", SCRIPT)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module
+def beams(script: Callable[[Path], ModuleType]) -> ModuleType:
+    return script(SCRIPT)
 
 
 @pytest.mark.slow

@@ -1,7 +1,5 @@
 """One scene under many formulations, and what each formulation must give exactly or nearly."""
 
-import importlib.util
-import sys
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -111,14 +109,8 @@ EXPECTED: dict[str, tuple[Callable[[], float], float, float]] = {
 
 
 @pytest.fixture(scope="module")
-def example() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("compare_one_scene", SCRIPT)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module
+def example(script: Callable[[Path], ModuleType]) -> ModuleType:
+    return script(SCRIPT)
 
 
 @pytest.mark.parametrize("name", EXPECTED)

@@ -1,7 +1,6 @@
 """Parts of a user's own: a mathematical cover, an interface law, a material law: one file each."""
 
-import importlib.util
-import sys
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
@@ -16,14 +15,7 @@ from nmm.testing import check_law
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
-def module(path: Path) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(path.stem, path)
-    assert spec is not None
-    assert spec.loader is not None
-    found = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = found
-    spec.loader.exec_module(found)
-    return found
+Script = Callable[[Path], ModuleType]
 
 
 @pytest.fixture
@@ -33,8 +25,8 @@ def beside(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("beside")
-def test_a_net_of_ones_own_gives_the_cylinder_under_pressure() -> None:
-    found = module(EXAMPLES / "own_cover" / "cylinder.py").main()
+def test_a_net_of_ones_own_gives_the_cylinder_under_pressure(script: Script) -> None:
+    found = script(EXAMPLES / "own_cover" / "cylinder.py").main()
     for error, _ in found.values():
         # Benchmark A6 asks for 0.5 % with linear covers.
         assert abs(error) < 0.005
@@ -44,8 +36,8 @@ def test_a_net_of_ones_own_gives_the_cylinder_under_pressure() -> None:
 
 @pytest.mark.usefixtures("beside")
 @pytest.mark.parametrize("size", [0.1, 0.5])
-def test_the_net_of_ones_own_reaches_around_any_box(size: float) -> None:
-    cover = module(EXAMPLES / "own_cover" / "radial.py").Radial
+def test_the_net_of_ones_own_reaches_around_any_box(script: Script, size: float) -> None:
+    cover = script(EXAMPLES / "own_cover" / "radial.py").Radial
     box = np.array([[-3.0, -1.0], [2.0, 5.0]])
     low, high = box
     laid = cover.regular(box, size, centre=(0.0, 0.5), inner=0.4)
@@ -82,6 +74,6 @@ def test_a_material_law_of_ones_own_remembers_and_creeps() -> None:
 
 
 @pytest.mark.usefixtures("beside")
-def test_the_law_of_the_example_keeps_what_every_law_must() -> None:
-    law = module(EXAMPLES / "own_law" / "maxwell.py").Maxwell(10e9, 0.25, 4e14)
+def test_the_law_of_the_example_keeps_what_every_law_must(script: Script) -> None:
+    law = script(EXAMPLES / "own_law" / "maxwell.py").Maxwell(10e9, 0.25, 4e14)
     check_law(law, planes=("strain",), step=1e4)

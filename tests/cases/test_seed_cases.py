@@ -1,7 +1,6 @@
 """Cases of the seed paper: what laws of scale and bounds ask of them."""
 
-import importlib.util
-import sys
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
@@ -11,14 +10,8 @@ SCRIPT = Path(__file__).parents[2] / "examples" / "seed_cases" / "cases.py"
 
 
 @pytest.fixture(scope="module")
-def cases() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("seed_cases", SCRIPT)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module
+def cases(script: Callable[[Path], ModuleType]) -> ModuleType:
+    return script(SCRIPT)
 
 
 def load(cases: ModuleType, text: str) -> float:

@@ -62,29 +62,6 @@ def test_a_duration_of_whole_steps_takes_as_many(step, count):
     assert seen.times[-1] == pytest.approx(count * step, rel=1e-12)
 
 
-@pytest.fixture
-def projectile():
-    return PROJECTILE
-
-
-PROJECTILE = """
-plane = "stress"
-duration = 1.0
-[inertia]
-[materials.m]
-young_modulus = 1e7
-poisson_ratio = 0.3
-density = 1000
-[[blocks]]
-name = "b"
-material = "m"
-vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
-[[initial_velocities]]
-block = "b"
-velocity = [3, 4]
-"""
-
-
 def test_a_run_has_all_columns_that_references_may_name_and_no_others(projectile):
     contact = '[contact]\n[interfaces.i]\nfriction_angle = 0.5\n[[blocks]]\nmaterial = "m"\n'
     contact += "vertices = [[0, -1], [1, -1], [1, 0], [0, 0]]\n"

@@ -1,6 +1,5 @@
 """The studies that come with nmm."""
 
-import importlib.util
 from pathlib import Path
 
 import numpy as np
@@ -16,16 +15,13 @@ ROOT = Path(__file__).resolve().parents[3]
 STUDIES = ROOT / "examples/studies"
 
 
-def report():
-    spec = importlib.util.spec_from_file_location("report", STUDIES / "report.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+@pytest.fixture
+def report(script):
+    return script(STUDIES / "report.py")
 
 
-def test_the_membrane_is_measured_under_every_formulation(tmp_path):
-    module = report()
-    module.measured("cook", tmp_path, repeats=1, memory=False, vary={module.SIZE: (8,)})
+def test_the_membrane_is_measured_under_every_formulation(report, tmp_path):
+    report.measured("cook", tmp_path, repeats=1, memory=False, vary={report.SIZE: (8,)})
     records = read_records(tmp_path / "records.jsonl")
     assert [one.status for one in records] == ["converged"] * 14
     work = {one.name: one.quantities["external_work"] for one in records}
@@ -46,9 +42,10 @@ def test_the_membrane_is_measured_under_every_formulation(tmp_path):
         ("edge_crack", 0.1, 4e-2),
     ],
 )
-def test_the_references_of_the_bodies_are_those_of_elements_on_other_meshes(name, size, allowed):
-    module = report()
-    scene = nmm.read_scene(ROOT / "examples" / module.STUDIES[name].scene)
+def test_the_references_of_the_bodies_are_those_of_elements_on_other_meshes(
+    report, name, size, allowed
+):
+    scene = nmm.read_scene(ROOT / "examples" / report.STUDIES[name].scene)
     cover = {"cover": {"type": "skfem", "degree": 3, "size": size}}
     found = run_elements(scene, nmm.Formulation.model_validate(cover)).history["external_work"][0]
     stated = {one.quantity: one.value for one in scene.references}["external_work"]
@@ -56,19 +53,17 @@ def test_the_references_of_the_bodies_are_those_of_elements_on_other_meshes(name
     assert -allowed < found / stated - 1 < 1e-7
 
 
-def test_every_study_of_the_report_has_its_files():
-    module = report()
-    for study in module.STUDIES.values():
+def test_every_study_of_the_report_has_its_files(report):
+    for study in report.STUDIES.values():
         assert (ROOT / "examples" / study.scene).exists()
         assert all(
             (STUDIES / "formulations" / f"{one}.toml").exists() for one in study.formulations
         )
 
 
-def test_integrators_are_measured_on_a_swing_against_a_limit(tmp_path):
-    module = report()
-    steps = {module.STEP: (8e-3, 4e-3, 2e-3)}
-    module.measured("cantilever_swings", tmp_path, repeats=1, memory=False, vary=steps)
+def test_integrators_are_measured_on_a_swing_against_a_limit(report, tmp_path):
+    steps = {report.STEP: (8e-3, 4e-3, 2e-3)}
+    report.measured("cantilever_swings", tmp_path, repeats=1, memory=False, vary=steps)
     page = (tmp_path / "cost.md").read_text()
     assert "Richardson extrapolation" in page
     records = read_records(tmp_path / "records.jsonl")

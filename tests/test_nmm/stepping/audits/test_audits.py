@@ -1,6 +1,5 @@
 """Audits: what makes them speak, that quiet runs are quiet, and that the page has the table."""
 
-import importlib.util
 from pathlib import Path
 
 import numpy as np
@@ -132,10 +131,8 @@ def test_every_threshold_warns_before_it_fails():
         assert row.fails is None or row.warns <= row.fails, name
 
 
-def test_the_page_has_the_tables_of_the_code():
-    spec = importlib.util.spec_from_file_location("audit_page", ROOT / "docs/audit_page.py")
-    page = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(page)
+def test_the_page_has_the_tables_of_the_code(script):
+    page = script(ROOT / "docs/audit_page.py")
     written = page.PAGE.read_text()
     assert page.renewed(written) == written, "write it anew: python docs/audit_page.py"
     assert all(f"| `{name}` |" in written for name in THRESHOLDS)
