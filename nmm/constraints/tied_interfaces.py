@@ -45,7 +45,7 @@ class TiedInterfaces(Effect):
     ) -> None:
         self.ties = list(ties)
         # Multipliers hold jumps of lines.
-        self._model = None if any(tie.shared is not None for tie in self.ties) else turning
+        self._turning_model = None if any(tie.shared is not None for tie in self.ties) else turning
         self._n = n_unknowns
         self._kept: tuple[Floats, csc_array] | None = None  # the matrix, at angles
         self._motions = KeptOfPlaces(self._moved)
@@ -104,16 +104,16 @@ class TiedInterfaces(Effect):
     @property
     def nonlinear(self) -> bool:
         """See `Effect.nonlinear`: where bodies turn."""
-        return self._model is not None
+        return self._turning_model is not None
 
     def step_force(self, before: State, after: State, span: Span) -> StepForce:
         """See `Effect.step_force`: forces at both ends of the step, where bodies are half way.
 
         There these keep angular momentum of two bodies that are tied.
         """
-        assert self._model is not None
+        assert self._turning_model is not None
         at = middle(before, after) if span.half else after
-        turned = turned_axes(self._model, before, at)
+        turned = turned_axes(self._turning_model, before, at)
         late = self._pulls(after, Instant.of(after))
         soon = late if span.weight == 1 else self._pulls(before, Instant.of(before))
         total, rounding = np.zeros(self._n), np.zeros(self._n)
