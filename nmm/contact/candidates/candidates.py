@@ -7,6 +7,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from integration.arrays import Bools, Ints
+from integration.contraction import largest
 from nmm.assembly.motion import State
 from nmm.contact.candidates.held_back import Crossed, held_back, joined, pushing
 from nmm.contact.candidates.partners import Partners
@@ -75,7 +76,11 @@ class Candidates:
         """
         joints = self.joints(record.book, state)
         crossed = crossed if step is None else joined(record.crossed, crossed)
-        found = self.partners.search(state, 2 * reach, step, record.book, record.found, crossed)
+        known = record.known
+        # Springs that a stress had closed push while their sides stand apart by the reference.
+        apart = 0.0 if known is None else float(largest(known.reference, initial=0.0))
+        within = 2 * reach + apart
+        found = self.partners.search(state, within, step, record.book, record.found, crossed)
         if record.known is not None and not self._laws.stiff and continues(record.found, found):
             points = continued(record.known, found)
             points = counted_on(self._geometry.measured(points, state))
