@@ -50,7 +50,7 @@ class Supports(TiedInterfaces):
     ) -> None:
         held = [_anchored(one, state) for one in _sharing(supports)]
         super().__init__(held, n_unknowns, turning)
-        self._in_time, self._model = in_time, model
+        self._in_time, self._whole = in_time, model
         grounds = [tie.interface.displacement for tie in self.ties]
         self._grounds = [ground for ground in grounds if isinstance(ground, Ground)]
         self._still = in_time and self.steady and len(self._grounds) == len(grounds)
@@ -168,8 +168,8 @@ class Supports(TiedInterfaces):
 
     def applied_forces(self, state: State) -> AppliedForces:
         """See `Effect.applied_forces`: what supports exert within bodies and on crack faces."""
-        assert self._model is not None
-        found, model = self._at_points(state), self._model
+        assert self._whole is not None
+        found, model = self._at_points(state), self._whole
         return joined(AppliedForces.on(model, tie.interface.first, one) for tie, one in found)
 
     def _at_points(self, state: State) -> Iterator[tuple[Imposition, Floats]]:

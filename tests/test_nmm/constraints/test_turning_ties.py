@@ -8,6 +8,8 @@ from scipy.special import ellipk
 
 import nmm
 from nmm.scene.read import parse_scene
+from nmm.stepping.prepare import prepare
+from nmm.verification import text
 
 LENGTH, DEPTH, DENSITY = 1.0, 0.05, 7800.0
 MASS = DENSITY * LENGTH * DEPTH
@@ -105,3 +107,11 @@ def test_a_held_body_stays_on_one_solution_a_step():
     clamped = PENDULUM.replace("point = [0, 0]", "segment = [[0, -0.025], [0, 0.025]]")
     run = ran(clamped.replace("0.75", "0.01"), integrator={"step": 1e-3})
     assert run.history["passes"].max() == 1
+
+
+def test_supports_of_bodies_at_rest_are_lines():
+    """Steps of supported scenes without anything that bends are linear: they are solved at once."""
+    held = text.held("block")
+    tables = [text.material("rock", 1e9, 0.2), text.box("block", (0, 0), (1, 1)), held]
+    scene = parse_scene(text.scene('plane = "stress"\n', tables))
+    assert not prepare(scene, nmm.Formulation()).stepper.plan.bent
