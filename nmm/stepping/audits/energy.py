@@ -55,6 +55,7 @@ def energy(run: EndedRun) -> Findings:
         yield from _made(run)
         yield _driven(run)
         yield from _lost(run)
+        yield from _damped(run)
     elif run.stepper.small and run.stepper.plan.contact is None:
         lacking = abs(ledger.balance) * ledger.throughput
         yield AuditFinding(
@@ -158,6 +159,23 @@ def _came(name: str, rise: EnergyRise, share: float) -> str:
     return (
         f"{rise.energy:.3g} J, {percent(share)} of the turnover, came from nowhere {span} "
         f"{rise.step}, at {rise.time:.6g} s"
+    )
+
+
+def _damped(run: EndedRun) -> Findings:
+    """What the integrator takes of a motion that records drive; peaks fall short by about it."""
+    if all(one.resolves is None for one in run.stepper.plan.effects.values()):
+        return
+    ledger, rule = run.recorder.ledger, run.formulation.integrator
+    missing = ledger.balance - ledger.contact_loss / ledger.throughput
+    share = max(min(ledger.integration_loss / ledger.throughput, missing), 0.0)
+    damps = make_integrator(rule).order == 1
+    yield AuditFinding(
+        "record_damped",
+        share,
+        f'{percent(share)} of the turnover of what records drive was lost to the integrator "'
+        f'{rule.type}": peaks of waves are up to so much too low',
+        "take smaller steps" + (', or type = "newmark", which damps none' if damps else ""),
     )
 
 

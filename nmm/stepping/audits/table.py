@@ -46,6 +46,12 @@ THRESHOLDS: dict[str, Threshold] = {
         None,
         "dynamics without asked-for damping (`kinetic_factor` below 1)",
     ),
+    "record_damped": Threshold(
+        "energy that the integrator took of a motion that records drive, over the turnover",
+        0.02,
+        None,
+        "dynamics with `motion` or `incoming` waves",
+    ),
     "work_not_stored": Threshold(
         "difference of work and stored energy beyond rounding, over the larger of both",
         1e-6,

@@ -157,6 +157,21 @@ def test_every_line_of_a_box_between_free_fields_moves_as_the_column(axis):
     assert missing(box) < 1e-8
 
 
+def test_what_shis_rule_takes_of_a_wave_is_told():
+    """Peaks of matched ground are twice the wave; with steps of 2.5 ms they are 3 % short."""
+    text = ground(more=LEVEL.replace("{held}", "y"), duration=0.4)
+    ours = [s for s in text.splitlines() if not s.startswith(("density = 2400", "p_v", "s_v"))]
+    kept, lossy = (
+        nmm.run(nmm.parse_scene("\n".join(ours).replace('"newmark"', rule)))
+        for rule in ('"newmark"', '"shi"')
+    )
+    assert surface(kept)[0].max() == pytest.approx(0.2, rel=1e-3)
+    assert not kept.summary.warnings
+    short = 1 - surface(lossy)[0].max() / 0.2
+    assert lossy.summary.audits["record_damped"] == pytest.approx(short, rel=0.3)
+    assert any("record_damped" in one for one in lossy.summary.warnings)
+
+
 RIDING = """
 [[supports]]
 name = "rock"
