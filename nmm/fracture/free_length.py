@@ -8,6 +8,8 @@ from integration.arrays import Floats
 LIGAMENT = 0.25
 # Edges that begin nearer to the tip than this share of the growth length are the crack's own faces.
 OWN = 1e-6
+# A segment that would pass a tip ahead by less than this share of its distance runs into it.
+HEAD_ON = 0.1
 
 
 def free_length(begin: Floats, way: Floats, start: Floats, end: Floats, length: float) -> float:
@@ -28,3 +30,14 @@ def free_length(begin: Floats, way: Floats, start: Floats, end: Floats, length: 
     hits = along[crossed & np.isfinite(along) & (along > OWN * length)]
     first = float(hits.min(initial=np.inf))
     return first if first <= (1 + LIGAMENT) * length else length
+
+
+def tip_ahead(begin: Floats, way: Floats, tips: Floats, length: float) -> Floats | None:
+    """Return the first of ``tips`` (m, 2) that a segment as in `free_length` runs into; or None.
+
+    Two cracks on one line meet so: neither crosses a face of the other.
+    """
+    away = tips - begin
+    along, aside = away @ way, np.abs(way[0] * away[:, 1] - way[1] * away[:, 0])
+    near = (along > OWN * length) & (along <= (1 + LIGAMENT) * length) & (aside <= HEAD_ON * along)
+    return tips[near][along[near].argmin()] if near.any() else None

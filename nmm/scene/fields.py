@@ -17,7 +17,7 @@ from pydantic_core import PydanticCustomError
 from nmm.scene.units import EXAMPLES, UnitError, convert
 
 # Magnitudes beyond these are mistakes, whose products overflow or vanish.
-LARGEST, SMALLEST = 10**30, 1e-30
+LARGEST, SMALLEST = 1e30, 1e-30
 # Largest count.
 MOST = 10**18
 # Deepest nesting of tables.

@@ -11,7 +11,7 @@ import numpy as np
 
 from covers.cutting.cut_cells import CutCells
 from integration.arrays import Floats, Ints
-from nmm.fracture.free_length import free_length
+from nmm.fracture.free_length import LIGAMENT, free_length, tip_ahead
 from nmm.fracture.growth.fronts import CrackFronts
 
 
@@ -46,6 +46,8 @@ def with_pieces(
     grown = list(cracks)
     for front, last in zip(growing, ends, strict=True):  # a handful of fronts
         line = grown[fronts.crack[front]]
+        if np.array_equal(last, line[-1 if fronts.last[front] else 0]):
+            continue
         parts = [line, last[None]] if fronts.last[front] else [last[None], line]
         grown[fronts.crack[front]] = np.concatenate(parts)
     return tuple(grown)
@@ -55,15 +57,24 @@ def new_ends(cut: CutCells, begin: Floats, tips: Ints, angle: Floats, length: fl
     """Return the ends (k, 2) of new segments from tips; see `extended_lines`."""
     edges, ahead = cut.boundary, cut.tips.direction[tips]
     start, end, body = edges.start, edges.end, edges.body
+    others, owner = cut.tips.point, cut.element_body[cut.tips.element]
     c, s = np.cos(angle), np.sin(angle)
     ways = np.stack([c * ahead[:, 0] - s * ahead[:, 1], s * ahead[:, 0] + c * ahead[:, 1]], axis=1)
-    found = []
+    found: list[Floats] = []
     bodies = cut.element_body[cut.tips.element[tips]]
     for here, way, mine in zip(begin, ways, bodies, strict=True):  # a handful of fronts
+        if any(np.array_equal(here, one) for one in found):
+            found.append(here)  # a segment before has run into this tip
+            continue
         near = body == mine
-        last = here + free_length(here, way, start[near], end[near], length) * way
+        free = free_length(here, way, start[near], end[near], length)
+        met = tip_ahead(here, way, others[owner == mine], length)
+        last = here + free * way
+        if met is not None and np.hypot(*(met - here)) <= (1 + LIGAMENT) * free:
+            last = met
         found.append(last)
         # The next segments may not cross this one.
         start, end = np.append(start, here[None], axis=0), np.append(end, last[None], axis=0)
-        body = np.append(body, mine)
+        body, owner = np.append(body, mine), np.append(owner, mine)
+        others = np.append(others, last[None], axis=0)
     return np.array(found).reshape(-1, 2)

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from nmm.scene.fields import quantity
 from nmm.scene.units import COMMON, EXAMPLES, UnitError, convert
 
 
@@ -88,3 +89,8 @@ def test_reading_common_units_imports_none_of_the_heavy_libraries() -> None:
         [sys.executable, "-c", code], capture_output=True, text=True, check=True
     )
     assert answer.stdout.strip() == "[]"
+
+
+def test_the_largest_number_is_one_that_is_taken() -> None:
+    # 10**30 lies below the nearest double of 1e30.
+    assert quantity("Pa").func(1e30) == 1e30  # type: ignore[call-arg]
