@@ -118,8 +118,8 @@ water = ["wet"]
 def test_water_of_stages_presses_and_fills_pores_each_as_its_own():
     found = nmm.run(nmm.parse_scene(HEAD + WATER.format(head=10e3 / 9810)))
     assert found.summary.status == "converged"
-    # 10 kPa on the right face; then as much in all pores, which stretch it by (1 - nu) p / E.
-    expected = [0, -2 * 10e3 / 1e9, 2 * 0.75 * 10e3 / 1e9]
+    # 10 kPa on the right face; then as much in all pores, which stretch it by (1 - 2 nu) p / E.
+    expected = [0, -2 * 10e3 / 1e9, 2 * 0.5 * 10e3 / 1e9]
     found = found.history["monitor:right:ux"]
     np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1e-12)
 
