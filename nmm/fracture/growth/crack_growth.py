@@ -57,7 +57,8 @@ class CrackGrowth(GrowingCracks):
 
     def energy_freed(self, booked: float, stored: float) -> float:
         """See `GrowingCracks.energy_freed`; with the last piece where it left no tip."""
-        if not len(self._path.stations) or self._path.stations[-1, 0] == self._length:
+        ended = self.parted or not len(self._measured.tip)
+        if not ended or not len(self._path.stations):
             return booked
         # The energy that the last cut released by itself is booked already.
         let_go = float(self._path.stations[-1, 2]) - stored
