@@ -19,6 +19,11 @@ class Inertia(Effect):
 
     The integrator adds the mass. In fixed axes, as in the classical update and for small
     displacements, there is no such force.
+
+    The rate ``omega`` is the angular momentum ``L`` over the moment of inertia ``J0`` of the body
+    as it was laid. A deformation makes it ``J = J0 + 2 s``, with ``s = int rho (X - Xc) . u``, and
+    the energy of the rotation ``L^2 / (2 J)``, to first order ``J0 omega^2 / 2 - omega^2 s``: the
+    work of the centrifugal force is taken from it, so that a body in free flight keeps its energy.
     """
 
     name = "inertia"
@@ -57,5 +62,7 @@ class Inertia(Effect):
         return product(self._model.rigid_projection, state.velocity).reshape(-1, 3)[:, 2]
 
     def energy(self, state: State) -> float:
-        """Kinetic energy (J)."""
-        return float(0.5 * state.velocity @ product(self.mass, state.velocity))
+        """Kinetic energy (J), that of rotation with the moment of inertia of the stretched body."""
+        reference = 0.5 * state.velocity @ product(self.mass, state.velocity)
+        outwards = self.force(state, Instant.of(state))
+        return float(reference - outwards @ state.deformation)

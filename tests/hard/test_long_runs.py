@@ -136,11 +136,11 @@ def test_a_block_at_rest_does_not_creep_by_its_own_swing(steps, integrator):
 
 
 @pytest.mark.parametrize("steps", [3_000, pytest.param(100_000, marks=pytest.mark.slow)])
-def test_newmark_exchanges_vibration_and_spin_within_a_band(steps):
-    """Strains do work on the spin in axes that turn by whole steps: to and fro, and no more.
+def test_a_plate_that_spins_and_vibrates_keeps_its_energy_under_newmark(steps):
+    """Its spin pays for the work that centrifugal forces do on its stretch.
 
     A plate of 2 m by 1 m spins with 20 rad/s and is let go from a stress of 20 MPa, a strain of
-    1e-3, in steps of 20 mrad: its energy swings by less than the product of strain and turnover.
+    1e-3, in steps of 20 mrad: without that its energy swings by 0.25 %.
     """
     shape = text.rectangle((-1, -0.5), (1, 0.5))
     velocity = "velocity = [1, 0.3]\nangular_velocity = 20.0"
@@ -149,10 +149,8 @@ def test_newmark_exchanges_vibration_and_spin_within_a_band(steps):
     found = run(scene, chosen("newmark", scene.formulation))
     history = found.history
     energy = history["kinetic_energy"] + history["strain_energy"]
-    first, last = np.ptp(energy[: steps // 10]), np.ptp(energy[-steps // 10 :])
-    assert last == pytest.approx(first, rel=0.05)
-    assert first < 5e-3 * energy[0]
-    assert energy[-steps // 10 :].mean() == pytest.approx(energy[: steps // 10].mean(), rel=1e-4)
+    # The rounding of so many steps: 9e-12 after 3 000.
+    assert np.ptp(energy) < 1e-14 * steps * energy[0]
 
 
 STEP, SPEED, FRICTION = 1e-5, 5.0, np.tan(np.radians(20.0))
@@ -272,10 +270,10 @@ def test_an_undamped_sliding_block_hops_by_what_flutter_takes_from_its_slide():
     history = found.history
     energy = sum(history[name] for name in names)
     energy = energy + history["friction_loss"] - history["external_work"]
-    # Beside closing and opening, which lose, the pull outwards of a block that turns by 1 rad/s
-    # works on its strain of 3e-4 with m a^2 w^2 e / 12, 0.03 J, and gives it back; of 16 250 J.
+    # Beside closing and opening, which lose, contacts turn a block of a strain of 3e-4, by 1 rad/s,
+    # as if it were unstrained: m a^2 w^2 e / 12, 0.03 J of 16 250 J at most (measured 1.5e-3 J).
     rise = float((energy - np.minimum.accumulate(energy)).max())
-    assert rise < 5e-6 * energy[0]
+    assert rise < 2e-6 * energy[0]
     assert energy[-1] == pytest.approx(energy[0], rel=1e-4)
     assert history["strain_energy"].max() > 100 * rise
     # From 1.8e-4 to 3.4e-3 m, 1.1e-3 in the middle; one more block may be a little out of that.

@@ -20,7 +20,7 @@ from nmm.solvers.unchecked import product
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.equations import Equations, Linearisation
 from nmm.stepping.step.nonlinear.inner import InternalForces
-from nmm.stepping.step.nonlinear.iterate import Iterate
+from nmm.stepping.step.nonlinear.iterate import Iterate, size
 from nmm.stepping.step.nonlinear.line_search import searched
 from nmm.stepping.step.trial import Attempt
 
@@ -31,6 +31,9 @@ Solve = Callable[[Linearisation | None, Attempt | None], Solution]
 # Out-of-balance force of matter, as a share of the forces, that is taken for a solution where it
 # falls no more for rounding.
 ROUNDED = 1e-7
+# Share of the contact forces that their linearisation may miss where the rest is rounding: as large
+# a share of their work is stored nowhere.
+SETTLED = 1e-6
 # What rounding leaves of a linear solution moves forces by about so many times as much.
 LEFT = 10.0
 # Iterations of a step; plasticity takes four to eight.
@@ -79,7 +82,8 @@ def newton(
         then = inner.at(found.increment, now, found.state)
         imbalances.append(inner.imbalance(now, then, scale, equations.force, found.missed))
         found = with_parts(found, imbalances=tuple(imbalances))
-        if _balanced(imbalances, inner.tolerance, found.residual):
+        patience = 1 if _settled(found) else FRUITLESS
+        if _balanced(imbalances, inner.tolerance, found.residual, patience):
             return equations, _accepted(found, then)
         way = then.increment - now.increment
         softens = softens or (inner.softens and float(way @ (line.stiffness @ way)) < 0)
@@ -143,12 +147,22 @@ def _line(inner: InternalForces, at: Iterate, clock: Clock) -> Linearisation:
     return Linearisation(stiffness, force, inner.start, inner.symmetric)
 
 
-def _balanced(imbalances: list[float], tolerance: float, residual: float) -> bool:
-    """Whether forces balance, or as far as rounding lets them: that of the solutions too."""
+def _settled(found: Attempt) -> bool:
+    """Whether contact forces are those of the gaps that were found."""
+    if found.missed is None or found.solved is None:
+        return True
+    return size(found.missed) <= SETTLED * size(found.solved.push)
+
+
+def _balanced(imbalances: list[float], tolerance: float, residual: float, patience: int) -> bool:
+    """Whether forces balance, or as far as rounding lets them: that of the solutions too.
+
+    Rounding is what has not fallen over so many iterations.
+    """
     last = imbalances[-1]
     if last <= tolerance:
         return True
-    stalls = len(imbalances) > 1 and last > 0.5 * imbalances[-2]
+    stalls = len(imbalances) > patience and last > 0.5 * imbalances[-1 - patience]
     return stalls and last <= max(ROUNDED, LEFT * residual)
 
 
