@@ -22,6 +22,10 @@ if TYPE_CHECKING:
     from nmm.assembly.motion import State
 
 
+# Stiffness over inertia, as a share of the body's largest, that is rounding: its square of 1e-16.
+RIGID = 1e-25
+
+
 @dataclass(frozen=True)
 class Model(ElasticSolid):
     """What is approximated and of what it is made.
@@ -107,9 +111,24 @@ class Model(ElasticSolid):
 
     @cached_property
     def force_scale(self) -> Floats:
-        """(n_unknowns,) factors by which forces on unknowns of all kinds compare."""
-        diagonal = self.elastic_stiffness.diagonal()
-        return np.asarray(1 / np.sqrt(np.where(diagonal > 0, diagonal, np.inf)))
+        """(n_unknowns,) factors by which forces on unknowns of all kinds compare.
+
+        One over the root of each unknown's stiffness ``K``. What moves a body without strain has
+        none: it counts as if it swung as fast as the body's other unknowns do, by the mean of their
+        ``log (K / M)``, with ``M`` of a density of one.
+        """
+        manifold = self.manifold
+        stiffness, inertia = self.elastic_stiffness.diagonal(), self.measure.diagonal()
+        body = np.repeat(manifold.cover_body, np.diff(manifold.cover_offset))
+        square = np.divide(stiffness, inertia, out=np.zeros_like(inertia), where=inertia > 0)
+        largest = np.zeros(manifold.n_bodies)
+        np.maximum.at(largest, body, square)
+        strains = square > RIGID * largest[body]
+        number = np.bincount(body[strains], minlength=manifold.n_bodies)
+        logs = np.bincount(body[strains], np.log(square[strains]), manifold.n_bodies)
+        mean = np.where(number > 0, np.exp(logs / np.maximum(number, 1)), 0.0)
+        felt = np.where(strains, stiffness, mean[body] * inertia)
+        return np.asarray(1 / np.sqrt(np.where(felt > 0, felt, np.inf)))
 
     def history(self) -> History:
         """Return the internal variables of matter that nothing has happened to, (Q, h) by name."""
