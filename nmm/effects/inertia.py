@@ -42,20 +42,22 @@ class Inertia(Effect):
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the centrifugal force of the rotation at the start of the step."""
-        spin = self.spin(state)
-        if not (self._axes_turn and some(spin)):
-            return np.zeros(self._model.manifold.n_unknowns)
-        return product(self.mass, product(self._model.manifold.stretch_modes, spin**2))
+        outwards = self._outwards(state)
+        return product(self.mass, outwards) if some(outwards) else outwards
 
     def applied_forces(self, state: State) -> AppliedForces:
         """See `Effect.applied_forces`: with the pull outwards, in axes that turn."""
-        acceleration, spin = state.acceleration, self.spin(state)
-        if self._axes_turn and some(spin):
-            outwards = product(self._model.manifold.stretch_modes, spin**2)
-            acceleration = acceleration - outwards
+        acceleration = state.acceleration - self._outwards(state)
         if not some(acceleration):
             return AppliedForces.of_densities()
         return AppliedForces.of_acceleration(acceleration)
+
+    def _outwards(self, state: State) -> Floats:
+        """Return ``omega^2 (X - Xc)`` in unknowns (n,); zero in axes that do not turn."""
+        spin = self.spin(state)
+        if not (self._axes_turn and some(spin)):
+            return np.zeros(self._model.manifold.n_unknowns)
+        return product(self._model.manifold.stretch_modes, spin**2)
 
     def spin(self, state: State) -> Floats:
         """Return the mean angular velocity (B,) of the bodies (rad/s)."""

@@ -17,8 +17,8 @@ def scale(functions, degree, corner=(0.0, 0.0)):
         text.material("rock", modulus=MODULUS, poisson=0.0),
         text.block("square", "rock", text.rectangle(corner, np.add(corner, 1.0))),
     ]
-    form = parse_formulation(f'[cover]\ntype = "block"\nfunctions = "{functions}"\ndegree = {degree}\n')
-    posed = pose(parse_scene(text.scene('plane = "stress"\n', tables)), form)
+    cover = f'[cover]\ntype = "block"\nfunctions = "{functions}"\ndegree = {degree}\n'
+    posed = pose(parse_scene(text.scene('plane = "stress"\n', tables)), parse_formulation(cover))
     return posed.discretisation.model.force_scale
 
 

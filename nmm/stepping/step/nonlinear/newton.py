@@ -33,7 +33,7 @@ Solve = Callable[[Linearisation | None, Attempt | None], Solution]
 ROUNDED = 1e-7
 # Share of the contact forces that their linearisation may miss where the rest is rounding: as large
 # a share of their work is stored nowhere.
-SETTLED = 1e-6
+MISSED_BY_CONTACT = 1e-6
 # What rounding leaves of a linear solution moves forces by about so many times as much.
 LEFT = 10.0
 # Iterations of a step; plasticity takes four to eight.
@@ -151,7 +151,7 @@ def _settled(found: Attempt) -> bool:
     """Whether contact forces are those of the gaps that were found."""
     if found.missed is None or found.solved is None:
         return True
-    return size(found.missed) <= SETTLED * size(found.solved.push)
+    return size(found.missed) <= MISSED_BY_CONTACT * size(found.solved.push)
 
 
 def _balanced(imbalances: list[float], tolerance: float, residual: float, patience: int) -> bool:
