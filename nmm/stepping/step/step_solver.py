@@ -21,7 +21,8 @@ from nmm.stepping.step.equations import Assembly, Equations, Linearisation
 from nmm.stepping.step.free_step import FreeStepSolver
 from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.nonlinear.inner import InternalForces
-from nmm.stepping.step.nonlinear.newton import Solution, Solve, newton
+from nmm.stepping.step.nonlinear.iterate import Solution, Solve
+from nmm.stepping.step.nonlinear.newton import newton
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:

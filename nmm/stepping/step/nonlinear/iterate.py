@@ -9,6 +9,12 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.solvers.unchecked import product
+from nmm.stepping.step.equations import Equations, Linearisation
+from nmm.stepping.step.trial import Attempt
+
+Solution = tuple[Equations, Attempt]
+Solve = Callable[[Linearisation | None, Attempt | None], Solution]
+"""From linearised internal forces, and what the last iteration found, to a solution."""
 
 
 @dataclass(frozen=True)
