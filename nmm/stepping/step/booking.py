@@ -74,7 +74,7 @@ def booked(
     if terms is None:
         return None
     heavy = terms.factor * float(increment @ product(terms.mass, increment))
-    taken = heavy - float(increment @ terms.momentum)
+    taken = heavy - float(increment @ (terms.momentum + terms.outwards))
     beyond, late = missed, 0.0
     lost: Mapping[str, float] = {}
     damped = added = 0.0

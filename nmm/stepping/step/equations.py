@@ -62,6 +62,8 @@ class InertiaTerms:
         (n,) that joins the forces.
     rates
         (n,) whose product with the mass the momentum is.
+    outwards
+        (n,) the centrifugal force among the forces, whose work the spin pays for.
     weight, contact_factor
         See `nmm.integrators.base`.
     gain
@@ -79,6 +81,7 @@ class InertiaTerms:
     factor: float
     momentum: Floats
     rates: Floats
+    outwards: Floats
     weight: float
     contact_factor: float
     gain: Floats | None
@@ -203,7 +206,8 @@ class Assembly:
             pushed += damping.force()
             pushed += sum(one @ rates for one in damping.masses.values())
         share = 1.0 if plan.contact is None else rule.contact_factor
-        given = mass, factor, momentum, rates, rule.end_weight, share
+        outwards = plan.inertia.force(state, static.end)
+        given = mass, factor, momentum, rates, outwards, rule.end_weight, share
         terms = InertiaTerms(*given, gain, applied, damping)
         if not terms.weight:  # explicit: what is elastic joins no matrix
             terms = replace(terms, elastic=plan.matrix(state, line.stiffness))

@@ -74,7 +74,11 @@ def test_joints_are_found_again_when_a_block_leaves():
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ('aperture = "0.2 mm"', 'aperture = "-0.2 mm"', "interfaces.joint.aperture: .*an aperture"),
+        (
+            'aperture = "0.2 mm"',
+            'aperture = "-0.2 mm"',
+            "interfaces.joint.aperture: .*an initial aperture",
+        ),
         ('"0.01 mm"', '"0.3 mm"', "interfaces.joint: residual_aperture.*of the aperture"),
         ("[joint_flow]\n", "", "joint_heads: no .joint_flow."),
         ('name = "out"', 'name = "in"', "a name of its own"),

@@ -9,7 +9,7 @@ from nmm.effects.given.steps import Instant
 from nmm.stepping.drive.pace import CUTS
 from nmm.stepping.drive.relaxation import _first_length, relax
 from nmm.stepping.prepare import prepare
-from nmm.stepping.step.nonlinear.newton import FRUITLESS, MOST, _hopeless
+from nmm.stepping.step.nonlinear.progress import FRUITLESS, MOST, hopeless
 from nmm.stepping.step.stepper import Stepper
 
 LOOSE = """
@@ -85,9 +85,9 @@ def test_a_loose_block_comes_to_rest_where_steps_are_held_at_a_third_of_the_firs
 @pytest.mark.parametrize("rate", [0.0, 0.3, 0.9])
 def test_iterations_that_gain_go_on_and_those_that_go_to_and_fro_end(rate):
     falling = [rate**k for k in range(MOST - 1)]
-    assert not _hopeless(falling)
+    assert not hopeless(falling)
     to_and_fro = [(1e-3, 0.6)[k % 2] for k in range(MOST)]
-    ends = next(k for k in range(1, MOST + 1) if _hopeless(to_and_fro[:k]))
+    ends = next(k for k in range(1, MOST + 1) if hopeless(to_and_fro[:k]))
     assert ends <= FRUITLESS + 2
 
 
