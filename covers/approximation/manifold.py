@@ -100,6 +100,16 @@ class Manifold:
         """Number of physical covers."""
         return len(self.cover_patch)
 
+    @cached_property
+    def unknown_cover(self) -> Ints:
+        """(n_unknowns,) physical cover of each unknown."""
+        return np.repeat(np.arange(self.n_covers), np.diff(self.cover_offset))
+
+    @cached_property
+    def unknown_body(self) -> Ints:
+        """(n_unknowns,) body of each unknown."""
+        return self.cover_body[self.unknown_cover]
+
     @property
     def degree(self) -> int:
         """Highest degree of displacements on an element, see `ElementGroup.shape_degree`."""

@@ -68,7 +68,7 @@ def _all_in(manifold: Manifold, found: Ints, left: Bools) -> Bools:
         changed = group.unknowns[~left[group.elements]].ravel()
         covers[np.searchsorted(manifold.cover_offset, changed, side="right") - 1] = False
     covers &= np.logical_and.reduceat(found >= 0, manifold.cover_offset[:-1])
-    return np.repeat(covers, np.diff(manifold.cover_offset))
+    return covers[manifold.unknown_cover]
 
 
 def _all_of(old: Manifold, new: Manifold, found: Ints) -> Bools:
@@ -76,4 +76,4 @@ def _all_of(old: Manifold, new: Manifold, found: Ints) -> Bools:
     first = np.maximum(found[new.cover_offset[:-1]], 0)
     parent = np.searchsorted(old.cover_offset, first, side="right") - 1
     same = np.diff(old.cover_offset)[parent] == np.diff(new.cover_offset)
-    return np.repeat(same, np.diff(new.cover_offset))
+    return np.asarray(same[new.unknown_cover])

@@ -104,9 +104,9 @@ class Transfer:
     @cached_property
     def loose(self) -> Bools:
         """(B,) whether a body inherits nothing, so that its mean motion determines its place."""
-        body = np.repeat(self.kin.new.cover_body, np.diff(self.kin.new.cover_offset))
-        n = self.kin.new.n_bodies
-        return np.asarray(np.bincount(body[~self._free], minlength=n) == 0)
+        new = self.kin.new
+        body = new.unknown_body[~self._free]
+        return np.asarray(np.bincount(body, minlength=new.n_bodies) == 0)
 
     def _among(self, matrix: csc_array) -> csc_array:
         """Submatrix of a matrix (n, n) for the unknowns that are solved for."""

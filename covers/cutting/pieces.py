@@ -12,6 +12,7 @@ from covers.cutting.half_edges import walks
 from covers.mathematical.base import Cover
 from integration.arrays import Bools, Floats, Ints
 from integration.permutations import inverse
+from integration.plane_vectors import cross
 from integration.polygons import Polygons
 
 
@@ -143,7 +144,7 @@ def _loop_sizes(faces: Faces) -> tuple[Floats, Floats]:
     first = np.unique(half.loop, return_index=True)[1]
     anchor = faces.points[half.origin[first]][half.loop]
     one, two = faces.points[half.origin] - anchor, faces.points[half.head] - anchor
-    doubled = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
+    doubled = cross(one, two)
     length = np.hypot(*(two - one).T)
     area = 0.5 * np.bincount(half.loop, doubled, minlength=half.n_loops)
     perimeter = np.bincount(half.loop, length, minlength=half.n_loops)
@@ -164,7 +165,7 @@ def _middles(cover: Cover, faces: Faces, loops: Ints) -> Floats:
     corner = cover.vertices[cover.cell_vertices[cell, 0]]
     one = (faces.points[half.origin[member]] - corner) / size
     two = (faces.points[half.head[member]] - corner) / size
-    doubled = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
+    doubled = cross(one, two)
     total = np.bincount(which, doubled, minlength=len(loops))
     moment = [np.bincount(which, doubled * part, minlength=len(loops)) for part in (one + two).T]
     middle = np.stack(moment, axis=1) / np.maximum(3 * total, np.finfo(float).tiny)[:, None]

@@ -166,8 +166,7 @@ def _passes(steps: Floats, edge: Ints, point: Ints) -> tuple[Bools, Floats]:
     along, away = end - start, steps[point] - start
     square = (along**2).sum(axis=1)
     parameter = (along * away).sum(axis=1) / square
-    cross = along[:, 0] * away[:, 1] - along[:, 1] * away[:, 0]
-    near = np.abs(cross) <= NEAR * np.sqrt(square)
+    near = np.abs(cross(along, away)) <= NEAR * np.sqrt(square)
     near &= (parameter > 0) & (parameter < 1)
     return near & (point != edge[:, 0]) & (point != edge[:, 1]), parameter
 

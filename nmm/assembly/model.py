@@ -119,7 +119,7 @@ class Model(ElasticSolid):
         """
         manifold = self.manifold
         stiffness, inertia = self.elastic_stiffness.diagonal(), self.measure.diagonal()
-        body = np.repeat(manifold.cover_body, np.diff(manifold.cover_offset))
+        body = manifold.unknown_body
         square = np.divide(stiffness, inertia, out=np.zeros_like(inertia), where=inertia > 0)
         largest = np.zeros(manifold.n_bodies)
         np.maximum.at(largest, body, square)

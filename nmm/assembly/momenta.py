@@ -5,6 +5,7 @@ from scipy.sparse import coo_array, csc_array, csr_array
 
 from covers.approximation.own_rule import own_rule
 from integration.arrays import Floats
+from integration.plane_vectors import cross
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 
@@ -41,7 +42,7 @@ def momenta_about(state: State, own: Floats, about: Floats) -> tuple[Floats, Flo
     """
     pushed = state.frames.to_global(np.arange(len(own)), own[:, :2])
     arm = state.frames.centre - about
-    return pushed, arm[:, 0] * pushed[:, 1] - arm[:, 1] * pushed[:, 0] + own[:, 2]
+    return pushed, cross(arm, pushed) + own[:, 2]
 
 
 def whole_momentum(model: Model, state: State, about: Floats, finite: bool = False) -> Floats:

@@ -196,9 +196,8 @@ class TiedInterfaces(Effect):
     def energy(self, state: State) -> float:
         """Energy (J) stored in ``state``, with places of its own instant."""
         pairs = self._each(state, Instant.of(state))
-        return sum(tie.energy(state, jump) for tie, jump in pairs) + self.received_stress_energy(
-            state
-        )
+        stored = sum(tie.energy(state, jump) for tie, jump in pairs)
+        return stored + self.received_stress_energy(state)
 
     def received_stress_energy(self, state: State) -> float:
         """See `Effect.received_stress_energy`: minus their tractions times the jumps."""

@@ -52,8 +52,7 @@ class Gravity(Effect):
         """Body (n,) of each unknown, and load vectors (n,) of unit accelerations along its axes."""
         manifold, density = self._model.manifold, self._model.density[:, None]
         along_x, along_y = (self._model.body_load(density * axis) for axis in np.eye(2))
-        body = np.repeat(manifold.cover_body, np.diff(manifold.cover_offset))
-        return body, along_x, along_y
+        return manifold.unknown_body, along_x, along_y
 
     def work(self, before: State, after: State) -> float:
         """Work (J) of the weight on the motion of axes and unknowns."""

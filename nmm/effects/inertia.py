@@ -8,6 +8,7 @@ from scipy.sparse import csc_array
 from integration.arrays import Floats
 from integration.contraction import some
 from nmm.assembly.applied_forces import AppliedForces
+from nmm.assembly.kept import KeptOfStates
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Instant, Setup
@@ -34,6 +35,7 @@ class Inertia(Effect):
         self._model = model
         self._axes_turn = axes_turn
         self.mass: csc_array = model.mass
+        self._outwards = KeptOfStates(self._centrifugal)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -42,17 +44,17 @@ class Inertia(Effect):
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the centrifugal force of the rotation at the start of the step."""
-        outwards = self._outwards(state)
+        outwards = self._outwards.of(state)
         return product(self.mass, outwards) if some(outwards) else outwards
 
     def applied_forces(self, state: State) -> AppliedForces:
         """See `Effect.applied_forces`: with the pull outwards, in axes that turn."""
-        acceleration = state.acceleration - self._outwards(state)
+        acceleration = state.acceleration - self._outwards.of(state)
         if not some(acceleration):
             return AppliedForces.of_densities()
         return AppliedForces.of_acceleration(acceleration)
 
-    def _outwards(self, state: State) -> Floats:
+    def _centrifugal(self, state: State) -> Floats:
         """Return ``omega^2 (X - Xc)`` in unknowns (n,); zero in axes that do not turn."""
         spin = self.spin(state)
         if not (self._axes_turn and some(spin)):

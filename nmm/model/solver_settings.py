@@ -76,5 +76,4 @@ def warnings(model: "Model") -> list[str]:
 
 def _covers(manifold: "Manifold", supports: "Supports") -> int:
     """Number of covers with unknowns in the ghost terms of supports."""
-    owner = np.repeat(np.arange(manifold.n_covers), np.diff(manifold.cover_offset))
-    return len(np.unique(owner[supports.tied_unknowns()]))
+    return len(np.unique(manifold.unknown_cover[supports.tied_unknowns()]))

@@ -26,7 +26,7 @@ def carried(old: Model, new: Model, kin: Parentage, state: State, declared: Stat
     transfer = Transfer.of(kin, density, inherited(kin))
     deformation = transfer.deformation(state.deformation, old.drained)
     deformation = _without_rigid(old, new, transfer, state.deformation, deformation)
-    known = ~kin.new_bodies[np.repeat(new.manifold.cover_body, np.diff(new.manifold.cover_offset))]
+    known = ~kin.new_bodies[new.manifold.unknown_body]
 
     def either(found: Floats, start: Floats) -> Floats:
         return np.where(known, found, start)

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from integration.plane_vectors import cross
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +61,7 @@ class Surface:
         first[self.body[::-1]] = np.arange(len(self))[::-1]
         origin = self.start[first[self.body]]
         a, b = self.start - origin, self.end - origin
-        twice = np.bincount(self.body, a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], len(first))
+        twice = np.bincount(self.body, cross(a, b), len(first))
         around = np.bincount(self.body, self.length, len(first))
         size = np.divide(np.abs(twice), around, out=np.zeros(len(first)), where=around > 0.0)
         return np.asarray(size[self.body])

@@ -10,6 +10,7 @@ import numpy as np
 from covers.approximation.rows import Rows
 from integration.arrays import Floats, Ints
 from integration.contraction import contract
+from integration.plane_vectors import cross
 from nmm.assembly.motion import MaterialPoints, State
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints
@@ -57,7 +58,7 @@ def _bent(sides: Sides, normal: Floats, side: tuple[Ints, Floats], state: State)
 def turned(vectors: Floats, start: Floats, end: Floats) -> Floats:
     """Turn vectors (m, 2) by the angles from ``start`` to ``end`` (m, 2), up to 45 degrees."""
     cos = (start * end).sum(axis=1)
-    sin = start[:, 0] * end[:, 1] - start[:, 1] * end[:, 0]
+    sin = cross(start, end)
     known = np.abs(sin) < cos
     cos, sin = np.where(known, cos, 1.0), np.where(known, sin, 0.0)
     c, s = np.stack([cos, sin]) / np.hypot(cos, sin)

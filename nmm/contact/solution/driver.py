@@ -78,9 +78,10 @@ class ContactSolver:
         """Return the solver of a model; ``compliance`` (3 B,) is that of its bodies as a whole."""
         manifold = model.manifold
         mass = RigidMass(manifold.boundary.body, manifold.rigid_modes, compliance)
-        unknown_body = np.repeat(manifold.cover_body, np.diff(manifold.cover_offset))
         softness = model.modulus[manifold.boundary.element] / model.modulus.max()
-        return cls(Posing(laws, softness, mass, enforcement.exact), enforcement, unknown_body)
+        return cls(
+            Posing(laws, softness, mass, enforcement.exact), enforcement, manifold.unknown_body
+        )
 
     def forget(self) -> None:
         """Drop what is kept for speed alone, and the last problem with its answer."""

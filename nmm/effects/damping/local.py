@@ -12,7 +12,7 @@ from typing import Self
 import numpy as np
 from scipy.sparse import csc_array, diags_array
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Floats
 from nmm.assembly.elements import element_matrices
 from nmm.assembly.elements.blocks import Part, assemble
 from nmm.assembly.model import Model
@@ -39,7 +39,7 @@ class LocalDamping(Effect):
             element(group, group.shape, density[group.elements])
             for group in model.manifold.groups  # a handful of groups
         ]
-        self._points, self._body = model.point_mass, _body_of_unknowns(model)
+        self._points, self._body = model.point_mass, model.manifold.unknown_body
         self._kept: tuple[Floats, csc_array] | None = None
 
     @classmethod
@@ -100,11 +100,3 @@ class LocalDamping(Effect):
             for group, masses in groups
         ]
         return assemble(parts, self._manifold.n_unknowns, self._manifold.cover_offset)
-
-
-def _body_of_unknowns(model: Model) -> Ints:
-    """Body (n,) that each unknown moves."""
-    found = np.zeros(model.manifold.n_unknowns, dtype=np.int64)
-    for group in model.manifold.groups:  # a handful of groups
-        found[group.unknowns] = model.manifold.element_body[group.elements, None]
-    return found

@@ -13,6 +13,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Floats, Ints
+from integration.plane_vectors import cross
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.members.ends import MemberEnds
@@ -179,6 +180,6 @@ class Links:
         pulls = force[:, None] * lines.along
         for end, pull in ((self.first, pulls), (self.second, -pulls)):
             arm = end.arm(before, after)
-            turning = arm[:, 0] * pull[:, 1] - arm[:, 1] * pull[:, 0]
+            turning = cross(arm, pull)
             moment[:, 2] += np.bincount(end.points.body, turning, minlength=len(moment))
         return np.asarray(model.rigid_projection.T @ moment.ravel())

@@ -84,7 +84,7 @@ def loaded(setup: Setup) -> "Model":
     model, manifold = setup.model, setup.model.manifold
     rows = _ends(setup).points.rows.matrix(manifold.n_unknowns)
     found = csc_array(rows.T @ diags_array(np.repeat(_masses(setup), 2)) @ rows)
-    cover = np.repeat(np.arange(manifold.n_covers), np.diff(manifold.cover_offset))
+    cover = manifold.unknown_cover
     row, column = found.nonzero()
     if model.lumped and (cover[row] != cover[column]).any():
         raise FormulationError(

@@ -6,6 +6,7 @@ import numpy as np
 
 from covers.cutting.cut_cells import CutCells
 from integration.arrays import Floats, Ints
+from integration.plane_vectors import cross
 from nmm.fracture.growth.advance import extended_lines
 from nmm.fracture.growth.fronts import CrackFronts
 from nmm.geometry.geometry import Geometry
@@ -59,6 +60,6 @@ def with_nucleus(geometry: Geometry, line: Floats) -> Geometry:
 def _angle(ahead: Floats, ways: Floats) -> Floats:
     """Smallest angle (k,) from directions ahead (k, 2) to planes along ``ways`` (k, 2) (rad)."""
     along = np.einsum("ij,ij->i", ahead, ways)
-    across = ahead[:, 0] * ways[:, 1] - ahead[:, 1] * ways[:, 0]
+    across = cross(ahead, ways)
     forward = np.where(along < 0, -1.0, 1.0)
     return np.asarray(np.arctan2(forward * across, forward * along))

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from integration.plane_vectors import cross
 from nmm.assembly.model import Model
 from nmm.assembly.motion import MaterialPoints, State, material_points
 from nmm.quantity import ENDS, Quantity
@@ -82,5 +83,5 @@ class CrackFaces:
         along = along / np.maximum(np.hypot(*along.T), 1e-300)[:, None]
         # The material lies on the left of an edge.
         jump = (one - two).mean(axis=1)
-        opening = along[:, 0] * jump[:, 1] - along[:, 1] * jump[:, 0]
+        opening = cross(along, jump)
         return ends.reshape(-1, 4), opening, (along * jump).sum(axis=1)

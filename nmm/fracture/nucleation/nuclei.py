@@ -12,6 +12,7 @@ import numpy as np
 import shapely
 
 from integration.arrays import Bools, Floats, Ints
+from integration.plane_vectors import cross
 from integration.rules import PointRule
 from nmm.assembly.model import Model
 from nmm.fracture.acting_stress import StressField
@@ -130,7 +131,7 @@ class Nuclei:
             found = self.rule.criterion.evaluate(self._lines, stress, lines)
             last, known = way, found.known
             way = _inwards(PrincipalStresses.of(found.mean).plane, places.inward)
-            turned = np.abs(last[:, 0] * way[:, 1] - last[:, 1] * way[:, 0])
+            turned = np.abs(cross(last, way))
             if float(turned[known].max(initial=0.0)) < CONVERGED_TURN:
                 break
         known &= inside | self._ends_deep(places.point + found.length[:, None] * last)

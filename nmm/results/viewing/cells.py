@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools, Ints
+from integration.plane_vectors import cross
 from integration.polygons import Polygons
 
 
@@ -47,7 +48,7 @@ def drawable(polygons: Polygons) -> Bools:
     points = polygons.points
     ahead = points[polygons.next_point] - points
     after = ahead[polygons.next_point]
-    turn = ahead[:, 0] * after[:, 1] - ahead[:, 1] * after[:, 0]
+    turn = cross(ahead, after)
     size = np.hypot(*ahead.T) * np.hypot(*after.T)
     side = np.sign(polygons.ring_areas)[polygons.ring_of_point]
     hollow = turn * side < -1e-12 * size
