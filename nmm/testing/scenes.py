@@ -46,6 +46,20 @@ segment = [[0, 0.5], [1, 0.5]]
 traction = [0, 1.0]
 """
 
+# What pulls a body of 2 m by 2 m apart, above and below the level of the origin, by 1 MPa.
+PULLED_APART = """
+[[loads]]
+name = "up"
+kind = "edge"
+segment = [[0, 1], [2, 1]]
+traction = [0, 1e6]
+[[loads]]
+name = "down"
+kind = "edge"
+segment = [[0, -1], [2, -1]]
+traction = [0, -1e6]
+"""
+
 
 def notched_plate(fracture: str, pulled: str = PULLED, tip: float = 0.3) -> str:
     """Return a plate of 1 m by 1 m that stands on its lower edge, with a crack from the left.

@@ -6,7 +6,7 @@ import pytest
 import nmm
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
-from nmm.testing.scenes import turned_net
+from nmm.testing.scenes import PULLED_APART, turned_net
 
 # A strip of 2 by 2 with a notch from either side on one line, pulled upwards.
 NOTCHES = """
@@ -33,22 +33,13 @@ fix = ["x", "y"]
 name = "roller"
 point = [0, -1]
 fix = ["y"]
-[[loads]]
-name = "up"
-kind = "edge"
-segment = [[0, 1], [2, 1]]
-traction = [0, 1e6]
-[[loads]]
-name = "down"
-kind = "edge"
-segment = [[0, -1], [2, -1]]
-traction = [0, -1e6]
 [fracture]
 criterion = "straight_ahead"
 toughness = 1e6
 increment = 0.15
 control = "toughness"
 """
+NOTCHES += PULLED_APART
 
 
 @pytest.mark.parametrize("aside", ["0.0", "1e-9", "1e-4"])

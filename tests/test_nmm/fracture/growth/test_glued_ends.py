@@ -5,7 +5,7 @@ import pytest
 import nmm
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
-from nmm.testing.scenes import turned_net
+from nmm.testing.scenes import PULLED_APART, turned_net
 
 # Two squares, one glued on the other, pulled upwards; the crack runs towards the seam.
 HALVES = """
@@ -42,21 +42,12 @@ fix = ["x", "y"]
 name = "roller"
 point = [2, 1]
 fix = ["x"]
-[[loads]]
-name = "up"
-kind = "edge"
-segment = [[0, 1], [2, 1]]
-traction = [0, 1e6]
-[[loads]]
-name = "down"
-kind = "edge"
-segment = [[0, -1], [2, -1]]
-traction = [0, -1e6]
 [fracture]
 toughness = 1e6
 increment = 0.1
 control = "toughness"
 """
+HALVES += PULLED_APART
 OTHER = """
 [[cracks]]
 name = "far"
