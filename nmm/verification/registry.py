@@ -87,6 +87,7 @@ CASES = Registry[type[Case]](
         "BO5 roof": f"{_HOME}.anchored:HungBlock",
         "C1": f"{_HOME}.beams:PlainBeam",
         "C1b": f"{_HOME}.beams:ReinforcedBeam",
+        "C2": f"{_HOME}.pull_out:AnchorPullOut",
         "C3": f"{_HOME}.joints:Chain",
         "C5": f"{_HOME}.notched_beam:NotchedBeam",
         "B10 cycle": f"{_HOME}.friction:CyclicShear",

@@ -58,7 +58,7 @@ def comparison(
     curve: tuple[str, str] = ("load_factor", "strain_energy"),
     path: PathLike | None = None,
 ) -> "list[Axes]":
-    """Draw runs side by side on one scale, then their differences from the first.
+    """Draw runs side by side on one scale, their differences from the first below.
 
     Parameters
     ----------
@@ -75,29 +75,31 @@ def comparison(
     path
         File to save the figure in.
     """
-    columns = len(runs) + len(differences)
     contacts = any(len(one.contact_vector) for one in runs)
     curves = any(len(one.x) > 1 for one in runs)
     broken = any(len(one.cracks) for one in runs)
-    figure, panels = _panels(2 + broken + contacts, columns, extent, curves)
+    compared = len(differences) > 0
+    fields = 2 + 2 * compared
+    figure, panels = _panels(fields + broken + contacts, len(runs), extent, curves)
     looks = styles([one.family for one in runs], [one.method for one in runs])
     shades = [colour for colour, _ in looks]
     rows: list[tuple[str, str, list[Floats], list[Floats]]] = [
         ("displacement", "m", [one.displacement for one in runs], [u for u, _ in differences]),
         ("von Mises stress", "Pa", [one.stress for one in runs], [s for _, s in differences]),
     ]
-    for row, (words, unit, images, others) in zip(panels, rows, strict=False):
-        limit = _images(row[: len(runs)], images, extent, words, unit, None)
-        _images(row[len(runs) :], others, extent, "difference", unit, limit)
-    for axes, one, shade in zip(panels[0], runs, shades, strict=False):
+    lines = iter(panels)
+    for words, unit, images, others in rows:
+        limit = _images(next(lines), images, extent, words, unit, None)
+        if compared:
+            first, *row = next(lines)
+            first.set_visible(False)
+            _images(row, others, extent, f"less that of {runs[0].name}", unit, limit)
+    for axes, one, shade in zip(panels[0], runs, shades, strict=True):
         axes.set_title(one.name, loc="left", fontsize=9, color=shade, fontweight="bold", wrap=True)
-    for axes, one, shade in zip(panels[0][len(runs) :], runs[1:], shades[1:], strict=True):
-        words = f"{one.name}\nless {runs[0].name}"
-        axes.set_title(words, loc="left", fontsize=SMALL, color=shade)
     if broken:
-        _cracks(panels[2], runs, shades, extent)
+        _cracks(next(lines), runs, shades, extent)
     if contacts:
-        _contacts(panels[2 + broken], runs, shades, extent)
+        _contacts(next(lines), runs, shades, extent)
     if curves:
         _curves(panels[-1][0], runs, shades, curve)
     if title:
@@ -155,7 +157,7 @@ def _images(
             vmax=factor * limit,
             interpolation="nearest",
         )
-        share = "" if not size else f", {100 * limit / size:.2g} % of the scale"
+        share = "" if not size else f"\n{float(f'{100 * limit / size:.2g}'):g} % of the scale above"
         bar = axes.figure.colorbar(drawn, ax=axes, orientation="horizontal", shrink=0.9, pad=0.03)
         bar.set_label(f"{words}  ({unit_text}){share}", fontsize=SMALL - 1)
         bar.ax.tick_params(labelsize=SMALL - 1.5)
@@ -187,7 +189,7 @@ def _cracks(
         axes.imshow(inside, origin="lower", extent=box, cmap="Greys", vmin=0, vmax=8)
         axes.add_collection(LineCollection(list(one.cracks), colors=shade, linewidths=1.6))
         axes.set_title("what broke", loc="left", fontsize=SMALL - 1)
-    _frame_pictures(row, len(runs), extent)
+    _frame_pictures(row, extent)
 
 
 def _contacts(
@@ -216,16 +218,15 @@ def _contacts(
             loc="left",
             fontsize=SMALL - 1,
         )
-    _frame_pictures(row, len(runs), extent)
+    _frame_pictures(row, extent)
 
 
-def _frame_pictures(row: "Sequence[Axes]", shown: int, extent: Floats) -> None:
-    """Give pictures of lines the frame of the images above them, and hide those of differences."""
+def _frame_pictures(row: "Sequence[Axes]", extent: Floats) -> None:
+    """Give pictures of lines the frame of the images above them."""
     _label_places(row)
-    for number, axes in enumerate(row):
+    for axes in row:
         axes.set_aspect("equal")
         axes.set(xlim=extent[:, 0], ylim=extent[:, 1])
-        axes.set_visible(number < shown)
 
 
 def _curves(
