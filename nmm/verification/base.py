@@ -1,9 +1,10 @@
 """What a benchmark problem is: a scene with answers from elsewhere, and how they are read off."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Literal, Self
+from itertools import product
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self
 
 from nmm.verification.series import Series
 
@@ -117,6 +118,9 @@ def order(series: Series, tolerance: float, reason: str, at_least: bool = False)
 class Case(ABC):
     """Base of benchmark problems; an instance is one variant with its parameters.
 
+    A case with parameters is a frozen dataclass: they are its annotated attributes, and attributes
+    without an annotation are the same in all variants.
+
     Attributes
     ----------
     name
@@ -127,22 +131,29 @@ class Case(ABC):
         Where the reference comes from.
     formulations
         Names, in `nmm.verification.formulations`, of those it applies to.
+    parameters
+        Values of parameters by name; their combinations are the variants.
+    label
+        What tells one variant from another, as a format of the case: ``"phi {0.friction:g}"``.
     """
 
     name: ClassVar[str]
     title: ClassVar[str]
     source: ClassVar[str]
     formulations: ClassVar[tuple[str, ...]] = ("dda",)
+    parameters: ClassVar[Mapping[str, Collection[Any]]] = {}
+    label: ClassVar[str] = ""
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return the variants that `verify` runs."""
-        return [cls()]
+        combinations = product(*cls.parameters.values())
+        return [cls(**dict(zip(cls.parameters, values, strict=True))) for values in combinations]
 
     @property
     def variant(self) -> str:
         """What tells this variant from the others; empty when there is one."""
-        return ""
+        return self.label.format(self)
 
     @property
     def slow(self) -> bool:

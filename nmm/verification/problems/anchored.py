@@ -1,7 +1,6 @@
 """Bars and bolts: shear lag, pull-out, a joint that opens, blocks that hang and slide."""
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -30,14 +29,13 @@ displacement = ["0.5 mm", 0]
 """
 
 
-@dataclass(frozen=True)
 class GroutedBolt(SceneCase):
     """A grouted bolt across a joint resists its opening as two bars that are pulled out."""
 
-    name: ClassVar[str] = "BO4"
-    title: ClassVar[str] = "Grouted bolt across an opening joint"
-    source: ClassVar[str] = "T = E A beta tanh(beta L) w / 2"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "manifold")
+    name = "BO4"
+    title = "Grouted bolt across an opening joint"
+    source = "T = E A beta tanh(beta L) w / 2"
+    formulations = ("dda", "manifold")
 
     def scene(self) -> str:
         """Return two blocks that part by half a millimetre."""
@@ -52,7 +50,6 @@ class GroutedBolt(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the force across the joint."""
         force = float(run.history["bars:bolt:force"][-1])
         reason = "order 2: an eighth of the square of pieces of 0.15 over beta"
         return {"force across the joint (N)": Check(force, 48844.636, 4e-3, reason)}
@@ -79,16 +76,13 @@ displacement = [0, "12.089477 mm"]
 """
 
 
-@dataclass(frozen=True)
 class DoweledJoint(SceneCase):
     """A bolt across a joint that slides bends against its bed on both sides."""
 
-    name: ClassVar[str] = "BO4 dowel"
-    title: ClassVar[str] = "Dowel action of a bolt across a sliding joint"
-    source: ClassVar[str] = (
-        "w = 4 V l / k, M = 0.3224 V / l, l = (k / (4 E I))^(1/4) (Hetenyi 1946)"
-    )
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "manifold", "degree 2")
+    name = "BO4 dowel"
+    title = "Dowel action of a bolt across a sliding joint"
+    source = "w = 4 V l / k, M = 0.3224 V / l, l = (k / (4 E I))^(1/4) (Hetenyi 1946)"
+    formulations = ("dda", "manifold", "degree 2")
 
     def scene(self) -> str:
         """Return two blocks, one of which moves along the joint by what 20 kN take."""
@@ -103,7 +97,6 @@ class DoweledJoint(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the shear force of the bolt and its largest moment."""
         shear, moment = (
             float(run.history[f"dowels:bolt:{what}"][-1]) for what in ("shear", "moment")
         )
@@ -114,14 +107,13 @@ class DoweledJoint(SceneCase):
         }
 
 
-@dataclass(frozen=True)
 class BoltedBlock(SceneCase):
     """A block slides down a plane until its bolt takes what friction does not."""
 
-    name: ClassVar[str] = "BO5 plane"
-    title: ClassVar[str] = "Bolted block on a plane"
-    source: ClassVar[str] = "T = W (sin a - cos a tan phi) / (cos b + sin b tan phi)"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "lagrange", "cone")
+    name = "BO5 plane"
+    title = "Bolted block on a plane"
+    source = "T = W (sin a - cos a tan phi) / (cos b + sin b tan phi)"
+    formulations = ("dda", "lagrange", "cone")
 
     def scene(self) -> str:
         """Return the plane drawn level, weight turned by 40 degrees, the bolt at 60."""
@@ -144,7 +136,6 @@ class BoltedBlock(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the bolt's force and how far the block slid."""
         force = float(run.history["springs:bolt:force"][-1])
         slid = float(last_way(run, "block")[0])
         reason = "the bolt turns by a thousandth as the block slides"
@@ -166,14 +157,13 @@ pretension = "20 kN"
 """
 
 
-@dataclass(frozen=True)
 class HungBlock(SceneCase):
     """A block hangs on two pretensioned bolts: the joint opens by what they lack."""
 
-    name: ClassVar[str] = "BO5 roof"
-    title: ClassVar[str] = "Block hung on two pretensioned bolts"
-    source: ClassVar[str] = "Balance of forces, E A / L = 32.724923 MN/m"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "lagrange", "cone", "finite elements")
+    name = "BO5 roof"
+    title = "Block hung on two pretensioned bolts"
+    source = "Balance of forces, E A / L = 32.724923 MN/m"
+    formulations = ("dda", "lagrange", "cone", "finite elements")
 
     def scene(self) -> str:
         """Return a roof with 60 kN under it, on bolts of 20 kN each."""
@@ -191,7 +181,6 @@ class HungBlock(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the bolts' forces and the opening of the joint."""
         reason = "the roof gives way by 1e-3 of a bolt"
         forces = (float(run.history[f"bars:{name}:force"][-1]) for name in ("left", "right"))
         opening = float(-last_way(run, "block")[1])

@@ -1,8 +1,7 @@
 """Structures that stand by thrust alone: a beam of two blocks, and arches of voussoirs."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -27,25 +26,16 @@ def _head(title: str, more: str = "") -> str:
 class ThreeHinges(SceneCase):
     """Two blocks between abutments carry their weight by hinges at the crown and the feet."""
 
-    name: ClassVar[str] = "B25"
-    title: ClassVar[str] = "Voussoir beam of two blocks, span 2 l, depth t"
-    source: ClassVar[str] = (
-        "Moments about the hinges: H = w l / (2 t); slides iff tan phi < 2 t / l"
-    )
-    formulations: ClassVar[tuple[str, ...]] = ("rigid", "dda")
-    half_span: ClassVar[float] = 4.0
-    depth: ClassVar[float] = 1.0
+    name = "B25"
+    title = "Voussoir beam of two blocks, span 2 l, depth t"
+    source = "Moments about the hinges: H = w l / (2 t); slides iff tan phi < 2 t / l"
+    formulations = ("rigid", "dda")
+    half_span = 4.0
+    depth = 1.0
     friction: float = 40.0
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return friction that holds with ease, hardly, and not."""
-        return [cls(40.0), cls(27.5), cls(25.5)]
-
-    @property
-    def variant(self) -> str:
-        """The friction angle."""
-        return f"phi {self.friction}"
+    # Friction that holds with ease, hardly, and not.
+    parameters: ClassVar = {"friction": (40.0, 27.5, 25.5)}
+    label = "phi {0.friction}"
 
     def scene(self) -> str:
         """Return both blocks between two held ones."""
@@ -66,7 +56,6 @@ class ThreeHinges(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare thrust and shear at an abutment, or say that the blocks slide out."""
         across = np.array([1.0, 0.0])
         if np.tan(np.radians(self.friction)) < 2 * self.depth / self.half_span:
             # They may come to rest far below, at the lower corners of the held blocks.
@@ -103,22 +92,15 @@ def voussoirs(inner: float, outer: float, embrace: float, number: int) -> list[s
 class Semicircle(SceneCase):
     """A semicircular arch of 27 voussoirs stands if it is thick enough."""
 
-    name: ClassVar[str] = "B26"
-    title: ClassVar[str] = "Least thickness of a semicircular arch"
-    source: ClassVar[str] = "Linear programme for 27 straight voussoirs: t / R = 0.10672"
-    formulations: ClassVar[tuple[str, ...]] = ("rigid",)
+    name = "B26"
+    title = "Least thickness of a semicircular arch"
+    source = "Linear programme for 27 straight voussoirs: t / R = 0.10672"
+    formulations = ("rigid",)
     share: float = 1.05
-    number: ClassVar[int] = 27
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return arches 5 % thicker and 5 % thinner than the least."""
-        return [cls(1.05), cls(0.95)]
-
-    @property
-    def variant(self) -> str:
-        """The thickness over the least."""
-        return f"t {self.share} of the least"
+    number = 27
+    # Arches 5 % thicker and 5 % thinner than the least.
+    parameters: ClassVar = {"share": (1.05, 0.95)}
+    label = "t {0.share} of the least"
 
     @property
     def slow(self) -> bool:
@@ -144,14 +126,13 @@ class Semicircle(SceneCase):
         return {"stands" if stands else "falls": holds(converged(run) == stands, reason)}
 
 
-@dataclass(frozen=True)
 class ShakenArch(SceneCase):
     """An arch of seven voussoirs fails under a horizontal share of its weight."""
 
-    name: ClassVar[str] = "B27"
-    title: ClassVar[str] = "Arch under horizontal acceleration"
-    source: ClassVar[str] = "Linear programme: lambda = 0.37361 for t / R = 0.15, 157.5 degrees"
-    formulations: ClassVar[tuple[str, ...]] = ("rigid",)
+    name = "B27"
+    title = "Arch under horizontal acceleration"
+    source = "Linear programme: lambda = 0.37361 for t / R = 0.15, 157.5 degrees"
+    formulations = ("rigid",)
 
     def scene(self) -> str:
         """Return the arch with a body force that grows until it fails."""
@@ -170,7 +151,6 @@ class ShakenArch(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the factor at which the arch fails."""
         found = run.summary.failure_factor
         return {
             "factor": Check(

@@ -1,8 +1,7 @@
 """Beams of concrete that break: four-point bending of bonded Voronoi blocks."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -37,21 +36,13 @@ class PlainBeam(SceneCase):
     Dimensions but the height are a reconstruction, see the scene.
     """
 
-    name: ClassVar[str] = "C1"
-    title: ClassVar[str] = "Plain concrete beam of 130 and 455 Voronoi blocks"
-    source: ClassVar[str] = "Rigid blocks on brittle springs by another program, 12 tessellations"
+    name = "C1"
+    title = "Plain concrete beam of 130 and 455 Voronoi blocks"
+    source = "Rigid blocks on brittle springs by another program, 12 tessellations"
     blocks: int = 130
     seed: int = 1
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return both numbers of blocks."""
-        return [cls(130), cls(455)]
-
-    @property
-    def variant(self) -> str:
-        """The number of blocks."""
-        return f"{self.blocks} blocks"
+    parameters: ClassVar = {"blocks": (130, 455)}
+    label = "{0.blocks} blocks"
 
     @property
     def slow(self) -> bool:
@@ -64,7 +55,6 @@ class PlainBeam(SceneCase):
         return written.replace("seed = 1\n", f"seed = {self.seed}\n")
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the failure load with the range, and the first joint's place with the span."""
         low, high = RANGES[self.blocks]
         load = _failure(run)
         reason = "means of the other program with both kinds of springs, and their scatter"
@@ -78,16 +68,15 @@ class PlainBeam(SceneCase):
         }
 
 
-@dataclass(frozen=True)
 class ReinforcedBeam(SceneCase):
     """A row of steel blocks that do not part carries on where the concrete has cracked.
 
     There is no reference load: strengths are the benchmark's, bar and cover an assumption.
     """
 
-    name: ClassVar[str] = "C1b"
-    title: ClassVar[str] = "Concrete beam of 455 blocks with a row of steel blocks"
-    source: ClassVar[str] = "Failure load of the plain beam; composite section with plane sections"
+    name = "C1b"
+    title = "Concrete beam of 455 blocks with a row of steel blocks"
+    source = "Failure load of the plain beam; composite section with plane sections"
 
     @property
     def slow(self) -> bool:
@@ -99,7 +88,6 @@ class ReinforcedBeam(SceneCase):
         return _text("reinforced")
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the load with the plain beam's, and see cracks in concrete and pull in steel."""
         load, frame = _failure(run), run.frames[-1]
         last = load * frame.load_factor / (run.summary.failure_factor or np.nan)
         ends = "a limit point of the path is passed"

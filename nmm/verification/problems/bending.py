@@ -1,8 +1,5 @@
 """Bodies in bending: the cantilever of Timoshenko and the membrane of Cook."""
 
-from dataclasses import dataclass
-from typing import ClassVar
-
 import numpy as np
 
 from integration.arrays import Floats
@@ -56,8 +53,8 @@ def timoshenko() -> Exact:
 class Beam(ContinuumCase):
     """The cantilever with exact displacements at its root and exact tractions at its end."""
 
-    size: ClassVar[float] = 3.0
-    source: ClassVar[str] = (
+    size = 3.0
+    source = (
         "Closed form of Timoshenko and Goodier; errors of finite elements on the same number of "
         "cells from scikit-fem"
     )
@@ -78,7 +75,6 @@ class Beam(ContinuumCase):
         )
 
 
-@dataclass(frozen=True)
 class Cantilever(Beam):
     """Errors in energy of a bent beam fall by the degree of the covers plus one.
 
@@ -87,9 +83,9 @@ class Cantilever(Beam):
     elements on as many cells.
     """
 
-    name: ClassVar[str] = "A2 rates"
-    title: ClassVar[str] = "Cantilever of Timoshenko, orders of convergence"
-    formulations: ClassVar[tuple[str, ...]] = ("bilinear quads", "finite elements", "manifold")
+    name = "A2 rates"
+    title = "Cantilever of Timoshenko, orders of convergence"
+    formulations = ("bilinear quads", "finite elements", "manifold")
 
     def checks(self, formulation: str) -> Checks:
         """Halve the covers three times."""
@@ -116,21 +112,15 @@ class Cantilever(Beam):
         return float(errors_of(found, timoshenko(), 8).energy)
 
 
-@dataclass(frozen=True)
 class ExactCantilever(Beam):
     """Quadratic covers hold the cubic field of the beam: exact on any mesh."""
 
-    name: ClassVar[str] = "A2 exact"
-    title: ClassVar[str] = "Cantilever of Timoshenko, exact with quadratic covers"
-    formulations: ClassVar[tuple[str, ...]] = (
-        "manifold degree 2",
-        "quads degree 2",
-        "multipliers degree 2",
-    )
-    size: ClassVar[float] = 4.0
+    name = "A2 exact"
+    title = "Cantilever of Timoshenko, exact with quadratic covers"
+    formulations = ("manifold degree 2", "quads degree 2", "multipliers degree 2")
+    size = 4.0
 
     def checks(self, formulation: str) -> Checks:
-        """Compare energy, error and displacements."""
         found = self.solved(formulation)
         reason = "rounding: the solution is in the space of the functions"
         return {
@@ -142,20 +132,19 @@ class ExactCantilever(Beam):
         }
 
 
-@dataclass(frozen=True)
 class Membrane(ContinuumCase):
     """A tapered panel clamped at one end and sheared at the other.
 
     The clamped upper corner is singular, so errors fall slowly there whatever the degree.
     """
 
-    name: ClassVar[str] = "A4"
-    title: ClassVar[str] = "Membrane of Cook"
-    source: ClassVar[str] = (
+    name = "A4"
+    title = "Membrane of Cook"
+    source = (
         "Finite elements of degree 4 on meshes graded to the corner; 23.9677, not the 23.91 or "
         "23.96 that are often quoted"
     )
-    formulations: ClassVar[tuple[str, ...]] = (
+    formulations = (
         "manifold",
         "manifold degree 2",
         "quads",
@@ -163,7 +152,7 @@ class Membrane(ContinuumCase):
         "springs",
         "finite elements",
     )
-    size: ClassVar[float] = 3.0
+    size = 3.0
 
     def problem(self, formulation: Formulation) -> Problem:
         """Return the panel under a total shear of 1 N."""
@@ -178,7 +167,6 @@ class Membrane(ContinuumCase):
         return Problem(model, [edge_support(model, formulation, left)], [up])
 
     def checks(self, formulation: str) -> Checks:
-        """Compare the displacement of the free side, the work and two stresses."""
         constant = formulation == "finite elements"
         found = self.solved(formulation, 1.0 if constant else self.size)
         wide = 0.02 if constant else 2e-3

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import Self
 
 import numpy as np
 
@@ -23,9 +23,9 @@ SKEW = np.array([[0.3, 0.5], [0.5, 1.0]])
 class BranchedCrack(Case):
     """A stem of 1 with two branches to either side in a wide plate."""
 
-    name: ClassVar[str] = "GR15"
-    title: ClassVar[str] = "Branched crack, intensities at all tips"
-    source: ClassVar[str] = (
+    name = "GR15"
+    title = "Branched crack, intensities at all tips"
+    source = (
         "Dislocations along the arms at Chebyshev's points (Erdogan and Gupta 1972), in an "
         "infinite plane; a cross by them has the 0.8636 of Rooke and Sneddon (1969)"
     )
@@ -52,7 +52,6 @@ class BranchedCrack(Case):
         return True
 
     def checks(self, formulation: str) -> Checks:
-        """Compare K_I and K_II of the stem and of both branches, over the largest."""
         angles = np.radians([180.0, self.degrees, -self.degrees])
         lengths, stress = np.array([1.0, self.branch, self.branch]), SKEW if self.skew else UP
         wanted = by_dislocations(angles, lengths, stress)

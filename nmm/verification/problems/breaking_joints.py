@@ -1,8 +1,7 @@
 """Joints that break: pulled off along a bilinear law, and at once."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -22,23 +21,15 @@ class PullOff(SceneCase):
     face would hold ``f_t A / (1 + 6 e / B)``; two springs do not.
     """
 
-    name: ClassVar[str] = "B31 pull-off"
-    title: ClassVar[str] = "Pull on a bonded block, central and eccentric"
-    source: ClassVar[str] = "Lever rule of the more loaded of two springs"
-    formulations: ClassVar[tuple[str, ...]] = ("rigid", "dda")
+    name = "B31 pull-off"
+    title = "Pull on a bonded block, central and eccentric"
+    source = "Lever rule of the more loaded of two springs"
+    formulations = ("rigid", "dda")
     eccentricity: float = 0.0
     points: str = "corners"
-    strength: ClassVar[float] = 1e6
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return three eccentricities with both rules."""
-        return [cls(e, points) for points in ("corners", "gauss") for e in (0.0, 0.1, 0.3)]
-
-    @property
-    def variant(self) -> str:
-        """Rule and eccentricity over width."""
-        return f"{self.points}, e {self.eccentricity}"
+    strength = 1e6
+    parameters: ClassVar = {"points": ("corners", "gauss"), "eccentricity": (0.0, 0.1, 0.3)}
+    label = "{0.points}, e {0.eccentricity}"
 
     def scene(self) -> str:
         """Return a square bonded to a held one and pulled at a point of its top."""
@@ -54,7 +45,6 @@ class PullOff(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the load at which the bond fails."""
         lever = 2.0 if self.points == "corners" else 2.0 * float(np.sqrt(3.0))
         expected = self.strength / (1 + lever * self.eccentricity)
         found = run.summary.failure_load
@@ -62,15 +52,14 @@ class PullOff(SceneCase):
         return {"load (N)": Check(float("nan") if found is None else found, expected, 3e-4, reason)}
 
 
-@dataclass(frozen=True)
 class BrittleDrop(SceneCase):
     """A bond that breaks lets go at once; energy is kept but for the broken springs' own."""
 
-    name: ClassVar[str] = "B31 drop"
-    title: ClassVar[str] = "Energy of a bond that breaks"
-    source: ClassVar[str] = "Work = kinetic + stored + lost"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "newmark")
-    strength: ClassVar[float] = 1e6
+    name = "B31 drop"
+    title = "Energy of a bond that breaks"
+    source = "Work = kinetic + stored + lost"
+    formulations = ("dda", "newmark")
+    strength = 1e6
 
     def scene(self) -> str:
         """Return a bonded block of 1 m pulled ever harder, in time."""
@@ -85,7 +74,6 @@ class BrittleDrop(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare forces and energies after the drop."""
         h = run.history
         stored = h["strain_energy"] + h["contact_energy"] + h["support_energy"]
         rest = h["external_work"] - h["kinetic_energy"] - stored - h["friction_loss"]

@@ -29,26 +29,19 @@ class LeaningColumns(SceneCase):
     The axes lie along the base: gravity leans by 30 degrees.
     """
 
-    name: ClassVar[str] = "B30"
-    title: ClassVar[str] = "Sixteen leaning columns of Goodman and Bray"
-    source: ClassVar[str] = "Goodman and Bray 1976; linear programme over admissible forces"
+    name = "B30"
+    title = "Sixteen leaning columns of Goodman and Bray"
+    source = "Goodman and Bray 1976; linear programme over admissible forces"
     formulations: ClassVar[tuple[str, ...]] = ("rigid", "dda")
     friction: float = 39.15
-    wide: ClassVar[float] = 10.0
-    step: ClassVar[float] = 1.0
-    weight: ClassVar[float] = 25e3
-    lean: ClassVar[float] = 30.0
-    heights: ClassVar[tuple[float, ...]] = (*range(4, 41, 4), 34, 28, 22, 16, 10, 4)
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return friction a degree above the one limit and below the other."""
-        return [cls(39.15), cls(32.4454)]
-
-    @property
-    def variant(self) -> str:
-        """The friction angle."""
-        return f"phi {self.friction}"
+    wide = 10.0
+    step = 1.0
+    weight = 25e3
+    lean = 30.0
+    heights = (*range(4, 41, 4), 34, 28, 22, 16, 10, 4)
+    # Friction a degree above the one limit and below the other.
+    parameters: ClassVar = {"friction": (39.15, 32.4454)}
+    label = "phi {0.friction}"
 
     @property
     def slow(self) -> bool:
@@ -156,10 +149,10 @@ class ToppledColumns(LeaningColumns):
     exact contact on either way: states of friction there are many, and rounding chooses.
     """
 
-    name: ClassVar[str] = "B30 thrusts"
-    title: ClassVar[str] = "Thrusts between the columns of Goodman and Bray"
-    source: ClassVar[str] = "Goodman and Bray 1976; their balance of single columns, computed anew"
-    formulations: ClassVar[tuple[str, ...]] = ("dda",)
+    name = "B30 thrusts"
+    title = "Thrusts between the columns of Goodman and Bray"
+    source = "Goodman and Bray 1976; their balance of single columns, computed anew"
+    formulations = ("dda",)
     friction: float = float(np.degrees(np.arctan(0.7855)))
     retreat: float = 2e-3
 
@@ -208,7 +201,6 @@ class ToppledColumns(LeaningColumns):
         return np.array(found)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the normal force of every joint between columns."""
         if not converged(run):
             return {"in equilibrium": holds(False, run.summary.sentence)}
         found, balanced, reason = {}, self.balanced(), "0.003 degrees of friction to spare"

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -41,23 +41,19 @@ def settled(time: float) -> float:
 class ConsolidatingColumn(SceneCase):
     """A column drained at its top, loaded there at once: pressures and settlement."""
 
-    name: ClassVar[str] = "WA13"
-    title: ClassVar[str] = "Consolidation of a column"
-    source: ClassVar[str] = "Terzaghi's series; p = B q at once, B = 1 / (1 + S M / w) (Biot 1941)"
-    formulations: ClassVar[tuple[str, ...]] = ("finite elements", "manifold", "quads", "splines")
+    name = "WA13"
+    title = "Consolidation of a column"
+    source = "Terzaghi's series; p = B q at once, B = 1 / (1 + S M / w) (Biot 1941)"
+    formulations = ("finite elements", "manifold", "quads", "splines")
     steps: int = 40
     storage: float = 1e-3
     time: float = 0.3
+    label = "{0.steps} steps, S M / w = {0.storage:g}"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return steps of two lengths, and water that is compressed as easily as the soil."""
         return [cls(), cls(160), cls(160, storage=1.0)]
-
-    @property
-    def variant(self) -> str:
-        """Number of steps and the storage."""
-        return f"{self.steps} steps, S M / w = {self.storage:g}"
 
     def scene(self) -> str:
         """Return the column; the coefficient of consolidation is the height squared a second."""
@@ -86,7 +82,6 @@ class ConsolidatingColumn(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare pressures at three depths, the settlement, and what became of the water."""
         depth = np.array([0.99, 0.5, 0.2])
         at_once = 1 / (1 + self.storage)
         points = np.stack([np.full(3, 0.5), HEIGHT * (1 - depth)], axis=1)

@@ -1,8 +1,7 @@
 """A uniform pressure between blocks: the contact patch test, over faces and at corners alone."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -25,32 +24,17 @@ class ContactPatch(SceneCase):
     The tops of both blocks carry the pressure, but for the part of the lower that the upper covers.
     """
 
-    name: ClassVar[str] = "B20"
-    title: ClassVar[str] = "Contact patch test, 1 x 1 on 3 x 1 with covers that do not match"
-    source: ClassVar[str] = "Uniform stress -1 (Taylor and Papadopoulos 1991)"
+    name = "B20"
+    title = "Contact patch test, 1 x 1 on 3 x 1 with covers that do not match"
+    source = "Uniform stress -1 (Taylor and Papadopoulos 1991)"
     formulations: ClassVar[tuple[str, ...]] = (
-        "dda",
-        "degree 2",
-        "degree 3",
-        "finite elements",
-        "manifold",
-        "manifold degree 2",
-        "bilinear quads",
-        "quads",
-        "quads degree 2",
+        *("dda", "degree 2", "degree 3", "finite elements", "manifold", "manifold degree 2"),
+        *("bilinear quads", "quads", "quads degree 2"),
     )
-    points: ClassVar[str] = "faces"
+    points = "faces"
     enforcement: str = "penalty"
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return the enforcements."""
-        return [cls(name) for name in ("penalty", "lagrange", "augmented", "cone")]
-
-    @property
-    def variant(self) -> str:
-        """The enforcement."""
-        return self.enforcement
+    parameters: ClassVar = {"enforcement": ("penalty", "lagrange", "augmented", "cone")}
+    label = "{0.enforcement}"
 
     def scene(self) -> str:
         """Return both blocks, free to widen."""
@@ -91,7 +75,6 @@ class ContactPatch(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the stress everywhere."""
         miss = float(np.abs(run.stress - [0.0, -1.0, 0.0]).max())
         if not converged(run):
             return {"in equilibrium": holds(False, run.summary.sentence)}
@@ -105,19 +88,14 @@ class ContactPatch(SceneCase):
         return {"largest error of stress (Pa)": limit(miss, most, reason)}
 
 
-@dataclass(frozen=True)
 class NodeToSegment(ContactPatch):
     """Springs of one stiffness at all corners: no uniform stress but by chance."""
 
-    name: ClassVar[str] = "B20 corners"
-    title: ClassVar[str] = "The contact patch test fails with contact at corners alone"
-    points: ClassVar[str] = "vertices"
-    formulations: ClassVar[tuple[str, ...]] = ("finite elements", "manifold", "quads")
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return springs."""
-        return [cls("penalty")]
+    name = "B20 corners"
+    title = "The contact patch test fails with contact at corners alone"
+    points = "vertices"
+    formulations = ("finite elements", "manifold", "quads")
+    parameters: ClassVar = {"enforcement": ("penalty",)}
 
     def measure(self, run: "Run") -> Checks:
         """Say by how much the stress is off."""

@@ -1,7 +1,7 @@
 """A re-entrant corner: singular stresses, with and without the functions that hold them."""
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -52,9 +52,7 @@ def tractions(points: Floats, normals: Floats) -> Floats:
 class LShapedBody(ContinuumCase):
     """An L-shaped body with arms of 1, loaded by the tractions of the first mode of its corner."""
 
-    source: ClassVar[str] = (
-        "Williams (1952): exponent 0.5444837, energy 4.1545442 from the tractions' work"
-    )
+    source = "Williams (1952): exponent 0.5444837, energy 4.1545442 from the tractions' work"
     radius: float | None = None
 
     def problem(self, formulation: Formulation) -> Problem:
@@ -72,19 +70,17 @@ class LShapedBody(ContinuumCase):
         return Problem(model, pins, [load(model, loaded, tractions)])
 
 
-@dataclass(frozen=True)
 class Exponents(LShapedBody):
     """Exponents of stress singularities at a corner and at a crack."""
 
-    name: ClassVar[str] = "A13 exponents"
-    title: ClassVar[str] = "Exponents of a re-entrant corner"
-    source: ClassVar[str] = (
+    name = "A13 exponents"
+    title = "Exponents of a re-entrant corner"
+    source = (
         "Williams (1952): sin(3 pi l / 2) = -+ l sin(3 pi / 2), solved in 16 digits; 1/2 at a crack"
     )
-    size: ClassVar[float] = 0.3
+    size = 0.3
 
     def checks(self, formulation: str) -> Checks:
-        """Compare the exponents and ratios of the corner functions."""
         from covers.local_functions.corner_functions import corner_functions
 
         corner = williams()
@@ -100,7 +96,6 @@ class Exponents(LShapedBody):
         }
 
 
-@dataclass(frozen=True)
 class PlainCorner(LShapedBody):
     """Without the functions of the corner errors fall by its exponent, whatever the degree.
 
@@ -108,10 +103,10 @@ class PlainCorner(LShapedBody):
     at one place: the offsets of the corner from the mesh's first are whole numbers of cells.
     """
 
-    name: ClassVar[str] = "A13 plain"
-    title: ClassVar[str] = "Re-entrant corner without functions of its own"
-    formulations: ClassVar[tuple[str, ...]] = ("bilinear quads", "quads", "quads degree 2")
-    size: ClassVar[float] = A / 5
+    name = "A13 plain"
+    title = "Re-entrant corner without functions of its own"
+    formulations = ("bilinear quads", "quads", "quads degree 2")
+    size = A / 5
 
     def checks(self, formulation: str) -> Checks:
         """Refine the covers three times."""
@@ -133,14 +128,13 @@ class PlainCorner(LShapedBody):
 class EnrichedCorner(LShapedBody):
     """With the functions of the corner the energy is right with a few hundred unknowns."""
 
-    name: ClassVar[str] = "A13 enriched"
-    title: ClassVar[str] = "Re-entrant corner with its singular functions"
-    formulations: ClassVar[tuple[str, ...]] = ("manifold",)
-    size: ClassVar[float] = 0.2
+    name = "A13 enriched"
+    title = "Re-entrant corner with its singular functions"
+    formulations = ("manifold",)
+    size = 0.2
     radius: float | None = 0.35
 
     def checks(self, formulation: str) -> Checks:
-        """Compare the energy with and without the functions."""
         found = self.solved(formulation)
         plain = 1 - replace(self, radius=None).solved(formulation).energy / ENERGY
         lack = 1 - found.energy / ENERGY

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -38,17 +38,16 @@ def away(places: Floats, line: Points) -> Floats:
     return np.asarray(shapely.distance(shapely.points(places), shapely.LineString(line)))
 
 
-@dataclass(frozen=True)
 class BeamWithHoles(GrowingCrack):
     """A crack beside three holes in a bent beam: it passes the lowest and meets the middle one."""
 
-    name: ClassVar[str] = "GR6"
-    title: ClassVar[str] = "Beam with three holes, the crack finds the middle one"
-    source: ClassVar[str] = (
+    name = "GR6"
+    title = "Beam with three holes, the crack finds the middle one"
+    source = (
         "Geometry of Bittencourt, Wawrzynek, Ingraffea and Sousa (1996); the path by finite "
         "elements of degree 3, pieces of 0.1; lengths in inches there, here in units of one"
     )
-    path: ClassVar[Points] = (
+    path = (
         *((4.0, 1.0), (4.0684, 1.2921), (4.1524, 1.58), (4.2518, 1.8631), (4.3646, 2.141)),
         *((4.4893, 2.4139), (4.625, 2.6814), (4.771, 2.9434), (4.9249, 3.201), (5.081, 3.4572)),
         *((5.2331, 3.7158), (5.3797, 3.9775), (5.523, 4.241), (5.6673, 4.504), (5.7201, 4.589)),
@@ -75,7 +74,6 @@ class BeamWithHoles(GrowingCrack):
         ]
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the path and where it ends."""
         place, _ = path(run, "c:end")
         off = away(place, self.path)
         last = run.stepper.discretisation.setup.geometry.cracks[0][-1] + run.origin
@@ -86,17 +84,16 @@ class BeamWithHoles(GrowingCrack):
         }
 
 
-@dataclass(frozen=True)
 class ShearedBeam(GrowingCrack):
     """A notched beam whose notched section carries shear alone: the crack starts in mode II."""
 
-    name: ClassVar[str] = "GR7"
-    title: ClassVar[str] = "Single edge notched beam in four point shear"
-    source: ClassVar[str] = (
+    name = "GR7"
+    title = "Single edge notched beam in four point shear"
+    source = (
         "Beam of Arrea and Ingraffea (1982) with self-equilibrated loads; the path by finite "
         "elements of degree 3, pieces of 6 mm"
     )
-    path: ClassVar[Points] = (
+    path = (
         *((0.0, 82.0), (16.7, 88.6), (31.3, 99.0), (44.3, 111.5), (55.7, 125.4), (65.6, 140.4)),
         *((73.9, 156.4), (80.5, 173.1), (85.6, 190.4), (89.3, 208.0), (91.5, 225.8)),
         *((92.4, 243.8), (92.2, 261.8), (91.2, 279.8), (90.3, 297.8), (90.0, 306.0)),
@@ -122,7 +119,6 @@ class ShearedBeam(GrowingCrack):
         ]
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the path, the first kink and where it meets the top."""
         place = 1e3 * path(run, "c:end")[0]
         first = place[1] - place[0]
         kink = float(np.degrees(np.arctan2(first[0], first[1])))
@@ -138,19 +134,18 @@ class ShearedBeam(GrowingCrack):
         }
 
 
-@dataclass(frozen=True)
 class LPanel(GrowingCrack):
     """An L-shaped panel that is lifted at its arm: the crack runs from the corner across."""
 
-    name: ClassVar[str] = "GR9"
-    title: ClassVar[str] = "L-shaped panel, path from a starter at the corner"
-    source: ClassVar[str] = "Panel of Winkler (2001); the path by finite elements of degree 3"
-    path: ClassVar[Points] = (
+    name = "GR9"
+    title = "L-shaped panel, path from a starter at the corner"
+    source = "Panel of Winkler (2001); the path by finite elements of degree 3"
+    path = (
         *((242.93, 257.07), (225.7, 267.2), (207.6, 275.6), (188.9, 282.7), (169.7, 288.4)),
         *((150.2, 292.9), (130.5, 296.1), (110.6, 298.1), (90.6, 299.3), (70.6, 299.8)),
         *((50.6, 300.0), (30.6, 300.0)),
     )
-    poisson: ClassVar[float] = 0.18
+    poisson = 0.18
 
     def scene(self) -> str:
         """Return the panel in plane stress."""
@@ -172,7 +167,6 @@ class LPanel(GrowingCrack):
         ]
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the path."""
         place = 1e3 * path(run, "c:end")[0]
         return {
             "distance from the path (mm)": limit(
@@ -186,22 +180,13 @@ class LPanel(GrowingCrack):
 class StressAlongCrack(GrowingCrack):
     """Ends of a crack that are kinked by 5 degrees: tension along it decides whether they leave."""
 
-    name: ClassVar[str] = "GR10"
-    title: ClassVar[str] = "Directional stability of a crack under tension along it"
-    source: ClassVar[str] = (
-        "Finite elements of degree 3 graded to the tips; pieces of 0.0125 to 0.05"
-    )
+    name = "GR10"
+    title = "Directional stability of a crack under tension along it"
+    source = "Finite elements of degree 3 graded to the tips; pieces of 0.0125 to 0.05"
     along: float = 1.5
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return the crack that straightens, the one that runs on, and the one that leaves."""
-        return [cls(one) for one in (0.0, 1.0, 1.5)]
-
-    @property
-    def variant(self) -> str:
-        """The tension along the crack."""
-        return f"tension along it {self.along:g}"
+    # Crack that straightens, the one that runs on, and the one that leaves.
+    parameters: ClassVar = {"along": (0.0, 1.0, 1.5)}
+    label = "tension along it {0.along:g}"
 
     @property
     def tables(self) -> Sequence[str]:
@@ -226,7 +211,6 @@ class StressAlongCrack(GrowingCrack):
         ]
 
     def measure(self, run: "Run") -> Checks:
-        """Compare how far the ends leave the line."""
         place, _ = path(run, "c:end")
         other, _ = path(run, "c:start")
         at = {x: float(np.interp(x, *place.T)) for x in (0.6, 1.0, 1.3)}

@@ -2,7 +2,7 @@
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,9 +19,9 @@ Line = list[list[float]]
 class GrowingCrack(SceneCase):
     """A body whose cracks grow at their toughness."""
 
-    formulations: ClassVar[tuple[str, ...]] = ("dda",)  # the scene's own
-    modulus: ClassVar[float] = 1.0
-    poisson: ClassVar[float] = 0.3
+    formulations = ("dda",)
+    modulus = 1.0
+    poisson = 0.3
 
     @property
     def slow(self) -> bool:

@@ -1,7 +1,6 @@
 """A reinforced tie whose bond slides: how far from a crack its concrete is pulled, how much."""
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,7 +18,6 @@ NET = DEPTH**2 - STEEL
 TENSILE, BOND = 2.9e6, 5.8e6
 
 
-@dataclass(frozen=True)
 class CrackedTie(SceneCase):
     """From a crack on a bar hands its force to the concrete, over a length that its bond sets.
 
@@ -28,10 +26,10 @@ class CrackedTie(SceneCase):
     block takes what slides along it.
     """
 
-    name: ClassVar[str] = "BO3"
-    title: ClassVar[str] = "Tie between cracks under constant bond"
-    source: ClassVar[str] = "N = f (A_c + n A_s), length f A_c / (tau pi d) (CEB-FIP Model Code)"
-    way: ClassVar[float] = 2.45e-4
+    name = "BO3"
+    title = "Tie between cracks under constant bond"
+    source = "N = f (A_c + n A_s), length f A_c / (tau pi d) (CEB-FIP Model Code)"
+    way = 2.45e-4
 
     def scene(self) -> str:
         """Return a row of blocks on a bar that two jacks pull, nearly to its first crack."""
@@ -61,7 +59,6 @@ class CrackedTie(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the force of the next crack, and how far from ends concrete is pulled less."""
         frame, wide = run.frames[-1], LENGTH / BLOCKS
         joint = np.round(frame.contact_position[:, 0] / wide).astype(int)
         carried = np.bincount(joint, frame.contact_force[:, 0], minlength=BLOCKS + 1)

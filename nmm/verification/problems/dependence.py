@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import Self
 
 import numpy as np
 
@@ -35,23 +35,19 @@ class Nullity(Case):
     cuts it in two doubles them, one that ends inside does not.
     """
 
-    name: ClassVar[str] = "D2 nullity"
-    title: ClassVar[str] = "Null vectors of the stiffness of free bodies"
-    source: ClassVar[str] = "2 p (p + 2) + 3 for each body, counted by rank over rationals"
-    formulations: ClassVar[tuple[str, ...]] = ("triangles",)
+    name = "D2 nullity"
+    title = "Null vectors of the stiffness of free bodies"
+    source = "2 p (p + 2) + 3 for each body, counted by rank over rationals"
+    formulations = ("triangles",)
     degree: int = 1
     body: str = "whole"
+    label = "degree {0.degree}, {0.body}"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return degrees 1 to 3 of a whole square, and squares with cracks."""
         whole = [cls(degree) for degree in (1, 2, 3)]
         return [*whole, cls(1, "cut in two"), cls(2, "cut in two"), cls(2, "cracked")]
-
-    @property
-    def variant(self) -> str:
-        """Degree and crack."""
-        return f"degree {self.degree}, {self.body}"
 
     def checks(self, formulation: str) -> Checks:
         """Count eigenvalues of the scaled stiffness."""
@@ -80,15 +76,14 @@ class Nullity(Case):
         }
 
 
-@dataclass(frozen=True)
 class OneField(ContinuumCase):
     """The field of displacements is one, however small the shift that makes the system regular."""
 
-    name: ClassVar[str] = "D2 field"
-    title: ClassVar[str] = "Field of dependent functions under different shifts"
-    source: ClassVar[str] = "The field is unique; its unknowns are not"
-    formulations: ClassVar[tuple[str, ...]] = ("manifold", "manifold degree 2", "manifold degree 3")
-    size: ClassVar[float] = 0.4
+    name = "D2 field"
+    title = "Field of dependent functions under different shifts"
+    source = "The field is unique; its unknowns are not"
+    formulations = ("manifold", "manifold degree 2", "manifold degree 3")
+    size = 0.4
 
     def problem(self, formulation: Formulation) -> Problem:
         """Return a body under displacements (y^4, x^3) all around."""
@@ -101,7 +96,6 @@ class OneField(ContinuumCase):
         return Problem(model, [edge_support(model, formulation, everywhere(model, 10), field)])
 
     def checks(self, formulation: str) -> Checks:
-        """Compare fields at vertices."""
         problem = self.problem(on_mesh(formulation, self.size))
         points = problem.model.manifold.vertex_rows
         usual = problem.solve()

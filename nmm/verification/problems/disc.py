@@ -1,7 +1,6 @@
 """A disc between two forces."""
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
@@ -19,16 +18,13 @@ if TYPE_CHECKING:
     from nmm.stepping.run import Run
 
 
-@dataclass(frozen=True)
 class BrazilianDisc(SceneCase):
     """A disc is pressed by two opposite forces: even tension across the line between them."""
 
-    name: ClassVar[str] = "C8"
-    title: ClassVar[str] = "Elastic stress on the load axis of the Brazilian test"
-    source: ClassVar[str] = (
-        "sx = 2 P / (pi D t), sy = -(2 P / (pi t)) (1 / (R - y) + 1 / (R + y) - 1 / D)"
-    )
-    formulations: ClassVar[tuple[str, ...]] = (
+    name = "C8"
+    title = "Elastic stress on the load axis of the Brazilian test"
+    source = "sx = 2 P / (pi D t), sy = -(2 P / (pi t)) (1 / (R - y) + 1 / (R + y) - 1 / D)"
+    formulations = (
         "finite elements",
         "manifold",
         "manifold degree 2",
@@ -36,10 +32,10 @@ class BrazilianDisc(SceneCase):
         "quads",
         "quads degree 2",
     )
-    radius: ClassVar[float] = 1.0
-    force: ClassVar[float] = 1.0
-    corners: ClassVar[int] = 144
-    places: ClassVar[tuple[float, ...]] = (0.0, 0.2, 0.4)
+    radius = 1.0
+    force = 1.0
+    corners = 144
+    places = (0.0, 0.2, 0.4)
 
     def scene(self) -> str:
         """Return a polygon of 144 corners, loaded at two of them; the lower one is held."""
@@ -68,7 +64,6 @@ class BrazilianDisc(SceneCase):
         return with_cover(found, size=size, angle=0.3, shift=(0.2, 0.3))
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the stress at points of the axis."""
         r, d = self.radius, 2 * self.radius
         unit = 2 * self.force / np.pi
         reason = "cells of 0.1 m; of 0.05 m where stress is even or nearly so in each"

@@ -1,7 +1,7 @@
 """A ditch that fills or is emptied beside ground with a water table."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -47,22 +47,18 @@ class FilledDitch(SceneCase):
     square root of time. A wall with upright faces lets through what Dupuit says, exactly.
     """
 
-    name: ClassVar[str] = "WA15"
-    title: ClassVar[str] = "A water table that follows a ditch"
-    source: ClassVar[str] = "Boussinesq 1904: similar solution, by shooting"
-    formulations: ClassVar[tuple[str, ...]] = ("quads",)
+    name = "WA15"
+    title = "A water table that follows a ditch"
+    source = "Boussinesq 1904: similar solution, by shooting"
+    formulations = ("quads",)
     before: float = 2.0
     after: float = 3.0
+    label = "from {0.before:g} to {0.after:g} m"
 
     @classmethod
     def variants(cls) -> "tuple[FilledDitch, ...]":
         """A ditch that fills, and one that is emptied."""
         return (cls(), cls(3.0, 2.0))
-
-    @property
-    def variant(self) -> str:
-        """Its levels."""
-        return f"from {self.before:g} to {self.after:g} m"
 
     @property
     def slow(self) -> bool:
@@ -98,7 +94,6 @@ class FilledDitch(SceneCase):
         return found.model_copy(update={"cover": cover, "loading": loading})
 
     def measure(self, run: "Run") -> Checks:
-        """Compare what the ditch has given at a quarter of the time and in the end."""
         slope = slope_at_ditch(self.before / self.after)
         spread = CONDUCTIVITY * self.after / DRAINABLE
         given = run.history["seepage:taken:ditch"]

@@ -41,23 +41,19 @@ def wedge(half_angle: float, wide: float) -> list[str]:
 class SplittingWedge(SceneCase):
     """A wedge is pressed between two blocks that give way aside; it slides on both flanks."""
 
-    name: ClassVar[str] = "SP4"
-    title: ClassVar[str] = "Wedge pressed between two blocks, with friction"
-    source: ClassVar[str] = "N / V = 1 / (2 (sin a + mu cos a)), H / V = N / V (cos a - mu sin a)"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "augmented", "finite elements", "quads")
+    name = "SP4"
+    title = "Wedge pressed between two blocks, with friction"
+    source = "N / V = 1 / (2 (sin a + mu cos a)), H / V = N / V (cos a - mu sin a)"
+    formulations = ("dda", "augmented", "finite elements", "quads")
     half_angle: float = 15.0
     friction: float = 0.3
-    force: ClassVar[float] = 1e5
+    force = 1e5
+    label = "half angle {0.half_angle:g} degrees, mu = {0.friction:g}"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return the benchmark's two, and a blunter wedge with more friction."""
         return [cls(friction=0.0), cls(), cls(30.0, 0.5)]
-
-    @property
-    def variant(self) -> str:
-        """Half angle and friction."""
-        return f"half angle {self.half_angle:g} degrees, mu = {self.friction:g}"
 
     def scene(self) -> str:
         """Return the blocks on smooth floors, each before a smooth wall."""
@@ -86,7 +82,6 @@ class SplittingWedge(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the thrust on the walls, and by balance the pressure of a flank."""
         a, history = np.radians(self.half_angle), run.history
         row = {
             one: np.array([history[f"reaction:{one} right:{axis}"][-1] for axis in "xy"])
@@ -111,24 +106,16 @@ class SplittingWedge(SceneCase):
 class StruckApart(SceneCase):
     """A wedge flies between two blocks at rest and drives them apart; nothing rubs."""
 
-    name: ClassVar[str] = "SP4 blow"
-    title: ClassVar[str] = "Wedge that strikes two blocks apart, without friction"
-    source: ClassVar[str] = "J = (1 + e) v sin a / (2 sin^2 a / M + cos^2 a / m) on each flank"
-    formulations: ClassVar[tuple[str, ...]] = ("rigid",)
-    half_angle: ClassVar[float] = 20.0
-    mass: ClassVar[float] = 10.0
-    speed: ClassVar[float] = 4.0
+    name = "SP4 blow"
+    title = "Wedge that strikes two blocks apart, without friction"
+    source = "J = (1 + e) v sin a / (2 sin^2 a / M + cos^2 a / m) on each flank"
+    formulations = ("rigid",)
+    half_angle = 20.0
+    mass = 10.0
+    speed = 4.0
     steps: int = 100
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return two lengths of steps."""
-        return [cls(), cls(400)]
-
-    @property
-    def variant(self) -> str:
-        """Steps."""
-        return f"{self.steps} steps"
+    parameters: ClassVar = {"steps": (100, 400)}
+    label = "{0.steps} steps"
 
     def scene(self) -> str:
         """Return the three in touch, the blocks on smooth floors."""
@@ -153,7 +140,6 @@ class StruckApart(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare velocities, the impulse of a flank and energy with those of a rebound, e = 1."""
         a, (fall, right, left) = np.radians(self.half_angle), rates(run)[:, :2]
         across, along = np.cos(a), np.sin(a)
         inertia = 2 * along**2 / self.mass + 2 * across**2 / self.mass

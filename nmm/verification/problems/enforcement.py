@@ -21,21 +21,14 @@ DENSITY, MODULUS = 2600.0, 20e9
 class Penetration(SceneCase):
     """A block on two equal contacts: springs give way by ``m g / (2 p)``, exact contact by 0."""
 
-    name: ClassVar[str] = "B11 penetration"
-    title: ClassVar[str] = "Penetration of a block at rest"
-    source: ClassVar[str] = "Balance: 2 p g = m g"
-    formulations: ClassVar[tuple[str, ...]] = ("rigid", "dda", "open-close", *EXACT)
+    name = "B11 penetration"
+    title = "Penetration of a block at rest"
+    source = "Balance: 2 p g = m g"
+    formulations = ("rigid", "dda", "open-close", *EXACT)
     penalty: float = 100.0
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return penalties from 1 to 1e6 times the modulus."""
-        return [cls(1.0), cls(100.0), cls(1e6)]
-
-    @property
-    def variant(self) -> str:
-        """The penalty over the modulus."""
-        return f"p / E {self.penalty:g}"
+    # Penalties from 1 to 1e6 times the modulus.
+    parameters: ClassVar = {"penalty": (1.0, 100.0, 1e6)}
+    label = "p / E {0.penalty:g}"
 
     def scene(self) -> str:
         """Return a block of 1 m on a held one."""
@@ -63,7 +56,6 @@ class Penetration(SceneCase):
         return found
 
     def measure(self, run: "Run") -> Checks:
-        """Compare gaps and forces of both contacts."""
         gap, force = run.frames[-1].contact_gap, run.contact_forces[:, 0]
         weight = DENSITY * G
         expected = weight / 2 / (self.penalty * MODULUS)
@@ -83,21 +75,17 @@ class Penetration(SceneCase):
 class Groove(SceneCase):
     """A square lies on its corner in a right-angled groove without friction."""
 
-    name: ClassVar[str] = "D4"
-    title: ClassVar[str] = "Square in a right-angled groove, penalty from E to 1e6 E"
-    source: ClassVar[str] = "Each flank carries W / sqrt(2)"
-    formulations: ClassVar[tuple[str, ...]] = ("rigid", "dda", *EXACT)
+    name = "D4"
+    title = "Square in a right-angled groove, penalty from E to 1e6 E"
+    source = "Each flank carries W / sqrt(2)"
+    formulations = ("rigid", "dda", *EXACT)
     penalty: float = 100.0
+    label = "p / E {0.penalty:g}"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return penalties from 1 to 1e6 times the modulus."""
         return [cls(10.0**power) for power in (0, 2, 4, 6)]
-
-    @property
-    def variant(self) -> str:
-        """The penalty over the modulus."""
-        return f"p / E {self.penalty:g}"
 
     def scene(self) -> str:
         """Return two held flanks that meet in the origin, and the square."""
@@ -117,7 +105,6 @@ class Groove(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the forces of both flanks."""
         expected = DENSITY * G / np.sqrt(2)
         origin, reason = np.zeros(2), "the benchmark's tolerance"
         flanks = {"right": np.array([-1.0, 1.0]), "left": np.array([1.0, 1.0])}
@@ -135,24 +122,16 @@ class Groove(SceneCase):
 class Rounds(Case):
     """The augmented Lagrangian presses a spring of stiffness k: the force after n rounds."""
 
-    name: ClassVar[str] = "B11 rounds"
-    title: ClassVar[str] = "Rounds of the augmented Lagrangian"
-    source: ClassVar[str] = "lambda_n = F (1 - (k / (k + p))^n)"
-    formulations: ClassVar[tuple[str, ...]] = ("augmented",)
+    name = "B11 rounds"
+    title = "Rounds of the augmented Lagrangian"
+    source = "lambda_n = F (1 - (k / (k + p))^n)"
+    formulations = ("augmented",)
     ratio: float = 1.0
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return penalties from a tenth to ten times the spring."""
-        return [cls(0.1), cls(1.0), cls(10.0)]
-
-    @property
-    def variant(self) -> str:
-        """The penalty over the spring."""
-        return f"p / k {self.ratio:g}"
+    # Penalties from a tenth to ten times the spring.
+    parameters: ClassVar = {"ratio": (0.1, 1.0, 10.0)}
+    label = "p / k {0.ratio:g}"
 
     def checks(self, formulation: str) -> Checks:
-        """Compare the contact force after one to four rounds."""
         reason = "the benchmark's"
         found = {}
         for count in (1, 2, 3, 4):

@@ -1,8 +1,7 @@
 """Integrals of monomials over polygons: exact in rational arithmetic."""
 
-from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -49,20 +48,18 @@ def column(power: tuple[int, int]) -> int:
     return int(exponents(sum(power)).tolist().index(list(power)))
 
 
-@dataclass(frozen=True)
 class Moments(Case):
     """Exact integrals over a notched polygon with a hole, a sliver and a square far away.
 
     The sense of the rings, and vertices that are twice there or on a line, must not matter.
     """
 
-    name: ClassVar[str] = "D1"
-    title: ClassVar[str] = "Integrals of monomials over polygons"
-    source: ClassVar[str] = "Rational arithmetic over the triangles of a fan"
-    formulations: ClassVar[tuple[str, ...]] = ("any cover",)
+    name = "D1"
+    title = "Integrals of monomials over polygons"
+    source = "Rational arithmetic over the triangles of a fan"
+    formulations = ("any cover",)
 
     def checks(self, formulation: str) -> Checks:
-        """Compare every integral by itself."""
         found: Checks = {}
         digits = "13 digits of each integral by itself"
         holed = moments(Polygons.from_rings([[OUTLINE, HOLE]]), 6, origin=(0, 0))[0]

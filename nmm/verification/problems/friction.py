@@ -1,7 +1,6 @@
 """Coulomb's cone: cyclic shear, admissible forces, and the strength of Mohr and Coulomb."""
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,14 +16,13 @@ LOAD, FRICTION, STIFFNESS, TRAVEL = 1e5, 0.3, 1e8, 1e-3
 """Normal force (N), tangent of the friction angle, shear stiffness (N/m), half travel (m)."""
 
 
-@dataclass(frozen=True)
 class CyclicShear(SceneCase):
     """A joint is sheared to and fro under constant load: an elastic, then sliding, loop."""
 
-    name: ClassVar[str] = "B10 cycle"
-    title: ClassVar[str] = "Cyclic shear of a joint with friction"
-    source: ClassVar[str] = "Loop 4 T (d - T / kt) = 84 J with T = 0.3 x 1e5 N"
-    formulations: ClassVar[tuple[str, ...]] = ("rigid", "dda")
+    name = "B10 cycle"
+    title = "Cyclic shear of a joint with friction"
+    source = "Loop 4 T (d - T / kt) = 84 J with T = 0.3 x 1e5 N"
+    formulations = ("rigid", "dda")
 
     def scene(self) -> str:
         """Return a block of 1 m on another, driven by 0, 1, -1, 1 mm with the load factor."""
@@ -48,7 +46,6 @@ class CyclicShear(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare saturation, the stiffness of unloading, and the loss in the last cycle."""
         h = run.history
         force, slip, factor = h["reaction:drive:x"], way(run, "upper")[:, 0], h["load_factor"]
         turn = int(np.argmin(np.abs(factor - 1)))
@@ -63,17 +60,15 @@ class CyclicShear(SceneCase):
         }
 
 
-@dataclass(frozen=True)
 class ForcedCycle(Case):
     """The same joint as one contact of two unknowns, by the enforcement alone."""
 
-    name: ClassVar[str] = "B10 enforcement"
-    title: ClassVar[str] = "Cyclic shear of one contact"
-    source: ClassVar[str] = "T = clip(T + kt du, -mu N, mu N) over the way it took"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "open-close", *EXACT)
+    name = "B10 enforcement"
+    title = "Cyclic shear of one contact"
+    source = "T = clip(T + kt du, -mu N, mu N) over the way it took"
+    formulations = ("dda", "open-close", *EXACT)
 
     def checks(self, formulation: str) -> Checks:
-        """Compare every step with the elastic-plastic spring, and the last loop with 84 J."""
         path = TRAVEL * np.interp(np.arange(0.0, 5.0, 0.02) + 0.02, [0, 1, 3, 5], [0, 1, -1, 1])
         slip, shear = driven_contact(formulation, path)
         expected, force = [], 0.0
@@ -136,16 +131,14 @@ def driven_contact(formulation: str, path: Floats) -> tuple[Floats, Floats]:
     return np.array(places), np.array(forces)
 
 
-@dataclass(frozen=True)
 class ConeProjection(Case):
     """Trial forces are brought back to the cone: pull cut off, shear cut at the bound."""
 
-    name: ClassVar[str] = "B10 cone"
-    title: ClassVar[str] = "Admissible forces of trial forces"
-    source: ClassVar[str] = "|T| <= c + mu max(-N, 0); N > 0 carries nothing unless bonded"
+    name = "B10 cone"
+    title = "Admissible forces of trial forces"
+    source = "|T| <= c + mu max(-N, 0); N > 0 carries nothing unless bonded"
 
     def checks(self, formulation: str) -> Checks:
-        """Compare a handful of forces with the law by hand."""
         from nmm.contact.problem.coulomb import project
         from nmm.contact.problem.step_problem import Limits
 
@@ -169,16 +162,15 @@ class ConeProjection(Case):
         return {"largest error (N)": Check(float(off), 0.0, 1e-10, "rounding", scale=1e5)}
 
 
-@dataclass(frozen=True)
 class Strength(Case):
     """Points of the Mohr-Coulomb envelope of concrete, and the strength in compression."""
 
-    name: ClassVar[str] = "C4"
-    title: ClassVar[str] = "Mohr-Coulomb strength with a tension cut-off"
-    source: ClassVar[str] = "tau = c - sigma tan phi; fc = 2 c cos phi / (1 - sin phi)"
-    cohesion: ClassVar[float] = 4.7e6
-    tensile: ClassVar[float] = 2.9e6
-    friction: ClassVar[float] = 37.0
+    name = "C4"
+    title = "Mohr-Coulomb strength with a tension cut-off"
+    source = "tau = c - sigma tan phi; fc = 2 c cos phi / (1 - sin phi)"
+    cohesion = 4.7e6
+    tensile = 2.9e6
+    friction = 37.0
 
     def overload(self, sigma: Floats, tau: Floats) -> Floats:
         """Stress over strength of joints under tractions (Pa)."""
@@ -194,7 +186,6 @@ class Strength(Case):
         return float(1e3 / unit[0])
 
     def checks(self, formulation: str) -> Checks:
-        """Compare strengths, and the plane that fails under compression."""
         low = self.shear_strength(-self.tensile)
         turn = np.radians(np.linspace(0, 90, 90001))
         # Planes whose normal is at `turn` from a unit pressure.

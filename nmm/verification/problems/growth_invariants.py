@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -53,9 +53,9 @@ class SceneElsewhere:
 class SameAnywhere(GrowingCrack):
     """An edge crack that is not across the tension, and the same scene at other places."""
 
-    name: ClassVar[str] = "GR11"
-    title: ClassVar[str] = "Growth of a crack, shifted, turned and mirrored"
-    source: ClassVar[str] = "Mechanics knows no place and no direction; Griffith's balance"
+    name = "GR11"
+    title = "Growth of a crack, shifted, turned and mirrored"
+    source = "Mechanics knows no place and no direction; Griffith's balance"
     where: SceneElsewhere = SceneElsewhere()
     angle: float = 17.0
 

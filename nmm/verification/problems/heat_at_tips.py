@@ -1,8 +1,7 @@
 """Heat that goes round the ends of cracks which insulate."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -37,21 +36,13 @@ SIZES = (0.4, 0.2, 0.1)
 class HeatAtTip(Case):
     """Temperatures about the end of a crack: no heat crosses it, and all goes round its end."""
 
-    name: ClassVar[str] = "TH9"
-    title: ClassVar[str] = "Temperature at the tip of a crack that insulates"
-    source: ClassVar[str] = "T = Im (z^(1/2) + z^(3/2) / 2) + Re z^2: no flow through the faces"
-    formulations: ClassVar[tuple[str, ...]] = ("manifold",)
+    name = "TH9"
+    title = "Temperature at the tip of a crack that insulates"
+    source = "T = Im (z^(1/2) + z^(3/2) / 2) + Re z^2: no flow through the faces"
+    formulations = ("manifold",)
     angle: float = 0.0
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return a square that is level, and one that is turned over the cover."""
-        return [cls(), cls(0.5)]
-
-    @property
-    def variant(self) -> str:
-        """The turn of the square."""
-        return f"turned by {self.angle:g}"
+    parameters: ClassVar = {"angle": (0.0, 0.5)}
+    label = "turned by {0.angle:g}"
 
     def checks(self, formulation: str) -> Checks:
         """Solve in cells of three sizes, with singular functions in a third of the square."""
@@ -97,21 +88,13 @@ class HeatAtTip(Case):
 class HeatAroundSlit(SceneCase):
     """A wall with a slit that insulates: heat has a longer way, round both of its ends."""
 
-    name: ClassVar[str] = "TH9 slit"
-    title: ClassVar[str] = "Heat through a wall with a slit"
-    source: ClassVar[str] = "A row of slits lengthens the way by (2 W / pi) ln sec(pi a / W)"
-    formulations: ClassVar[tuple[str, ...]] = ("manifold",)
+    name = "TH9 slit"
+    title = "Heat through a wall with a slit"
+    source = "A row of slits lengthens the way by (2 W / pi) ln sec(pi a / W)"
+    formulations = ("manifold",)
     angle: float = 0.0
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return covers of two angles."""
-        return [cls(), cls(0.3)]
-
-    @property
-    def variant(self) -> str:
-        """The angle of the cover."""
-        return f"cover at {self.angle:g}"
+    parameters: ClassVar = {"angle": (0.0, 0.3)}
+    label = "cover at {0.angle:g}"
 
     def scene(self) -> str:
         """Return a wall of 2 m by 0.5 m, 40 K over it, and a slit of 0.3 m in the middle."""
@@ -132,7 +115,6 @@ class HeatAroundSlit(SceneCase):
         return with_cover(super().formulation(scene, name), size=0.05, angle=self.angle)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the flow."""
         way = 2 + 2 * 0.5 / np.pi * np.log(1 / np.cos(np.pi * 0.15 / 0.5))
         flow = float(run.history["heat:taken:hot"][-1])
         why = "six cells along the slit, its ends enriched alone: 3 % without"

@@ -1,8 +1,7 @@
 """Strain of temperatures that vary in a body: a hot core, and a field that bends nothing."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -24,21 +23,13 @@ if TYPE_CHECKING:
 class HotCore(SceneCase):
     """A disc with a hot core: the strain jumps at a line between blocks."""
 
-    name: ClassVar[str] = "TH4"
-    title: ClassVar[str] = "Disc with a hot core"
-    source: ClassVar[str] = "Lamé's solution; core .5 m, disc 2 m, ten times as large as given"
-    formulations: ClassVar[tuple[str, ...]] = ("manifold", "quads degree 2")
+    name = "TH4"
+    title = "Disc with a hot core"
+    source = "Lamé's solution; core .5 m, disc 2 m, ten times as large as given"
+    formulations = ("manifold", "quads degree 2")
     plane: str = "stress"
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return both planes."""
-        return [cls("stress"), cls("strain")]
-
-    @property
-    def variant(self) -> str:
-        """The plane."""
-        return f"plane {self.plane}"
+    parameters: ClassVar = {"plane": ("stress", "strain")}
+    label = "plane {0.plane}"
 
     def scene(self) -> str:
         """Return a quarter: 60 K in the core."""
@@ -64,7 +55,6 @@ class HotCore(SceneCase):
         return with_cover(super().formulation(scene, name), size=0.25)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare stresses of core and ring, and the widening."""
         factor = 1.0 if self.plane == "stress" else 1 / 0.7
         widening = 0.1725e-3 if self.plane == "stress" else 0.22425e-3
         a = np.cos(0.7), np.sin(0.7)
@@ -86,22 +76,14 @@ class HotCore(SceneCase):
 class LinearTemperature(SceneCase):
     """A temperature linear in x and y strains a free body and does not stress it."""
 
-    name: ClassVar[str] = "TH5"
-    title: ClassVar[str] = "Linear temperature of a free body"
-    source: ClassVar[str] = "u = A (T0 x + gx (x2 - y2) / 2 + gy x y), v alike; no stress"
-    formulations: ClassVar[tuple[str, ...]] = ("degree 2", "manifold", "quads", "manifold degree 2")
+    name = "TH5"
+    title = "Linear temperature of a free body"
+    source = "u = A (T0 x + gx (x2 - y2) / 2 + gy x y), v alike; no stress"
+    formulations = ("degree 2", "manifold", "quads", "manifold degree 2")
     plane: str = "stress"
     blocks: int = 1
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return both planes, of one body and of two that are bonded."""
-        return [cls(plane, blocks) for plane in ("stress", "strain") for blocks in (1, 2)]
-
-    @property
-    def variant(self) -> str:
-        """Plane and number of blocks."""
-        return f"plane {self.plane}, {self.blocks} blocks"
+    parameters: ClassVar = {"plane": ("stress", "strain"), "blocks": (1, 2)}
+    label = "plane {0.plane}, {0.blocks} blocks"
 
     def scene(self) -> str:
         """Return a body of 2 m by 1 m at 10 + 7 x - 4 y K, conducted between its edges."""
@@ -123,7 +105,6 @@ class LinearTemperature(SceneCase):
         return text.scene(head, [material, conducts, *boxes, *held, *edges, tip])
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the way of a corner; no stress may be left."""
         a = 1e-5 * (1.0 if self.plane == "stress" else 1.2)
         t, x, y, gx, gy = 10.0, 2.0, 1.0, 7.0, -4.0
         u = a * (t * x + gx * (x * x - y * y) / 2 + gy * x * y)

@@ -1,9 +1,8 @@
 """Heat that is conducted: steady and transient fields, their orders, and the stress they make."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -52,7 +51,7 @@ class HeatedCylinder(SceneCase):
     name, title = "TH3", "Cylinder heated inside"
     source = "Timoshenko and Goodier: T = 100 ln(b / r) / ln(b / a), b = 2 a; ten times as large"
     formulations = ("manifold", "manifold degree 2", "quads degree 2")
-    chords: ClassVar[int] = 32
+    chords = 32
 
     def scene(self) -> str:
         """Return a quarter, 100 K at the inner face, 0 at the outer one."""
@@ -82,7 +81,6 @@ class HeatedCylinder(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare temperature, widening and stresses."""
         a = np.array([np.cos(0.7), np.sin(0.7)])
         half = temperature(run, 1.5 * a[None])[0]
         inner, middle, outer = fields(run, np.outer([1.005, 1.5, 1.99], a)).stress
@@ -138,7 +136,6 @@ class ParabolicTemperature(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare temperature and stress across the plate."""
         y = np.array([0.02, 0.5, 0.98])
         points = np.stack([np.full(3, 0.11), y], axis=1)
         found, warm_by = fields(run, points).stress[:, 0], temperature(run, points)
@@ -158,21 +155,13 @@ class ParabolicTemperature(SceneCase):
 class Slab(SceneCase):
     """A slab one face of which is heated at once: conduction in time, by blocks and by meshes."""
 
-    name: ClassVar[str] = "TH7"
-    title: ClassVar[str] = "Slab that is heated at once"
-    source: ClassVar[str] = "Carslaw and Jaeger, series in sin((n + 1/2) pi x / L)"
-    formulations: ClassVar[tuple[str, ...]] = ("manifold", "manifold degree 2", "quads", "splines")
+    name = "TH7"
+    title = "Slab that is heated at once"
+    source = "Carslaw and Jaeger, series in sin((n + 1/2) pi x / L)"
+    formulations = ("manifold", "manifold degree 2", "quads", "splines")
     theta: float = 0.5
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return both ends of the theta method."""
-        return [cls(0.5), cls(1.0)]
-
-    @property
-    def variant(self) -> str:
-        """Theta."""
-        return f"theta = {self.theta:g}"
+    parameters: ClassVar = {"theta": (0.5, 1.0)}
+    label = "theta = {0.theta:g}"
 
     def scene(self) -> str:
         """Return a slab of 4 m whose diffusivity is 1e-6 m2/s, over .1 L^2 / a."""
@@ -191,7 +180,6 @@ class Slab(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare temperatures, stored heat, and the balance."""
         x = np.array([0.5, 1.3, 2.2, 3.9])
         found = temperature(run, np.stack([x, np.full(4, 0.47)], axis=1))
         n = (np.arange(100)[:, None] + 0.5) * np.pi
@@ -216,10 +204,10 @@ class Slab(SceneCase):
 class HeatRates(Case):
     """A harmonic temperature on cut covers converges with one order more than its degree."""
 
-    name: ClassVar[str] = "TH8"
-    title: ClassVar[str] = "Orders of a harmonic temperature"
-    source: ClassVar[str] = "T = e^x sin y, held along all edges of a turned square"
-    formulations: ClassVar[tuple[str, ...]] = (
+    name = "TH8"
+    title = "Orders of a harmonic temperature"
+    source = "T = e^x sin y, held along all edges of a turned square"
+    formulations = (
         *("finite elements", "manifold", "manifold degree 2", "bilinear quads", "quads"),
         *("quads degree 2", "splines"),
     )

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -55,17 +55,13 @@ def pinned(point: Sequence[float], axes: str, name: str) -> str:
 class Restrained(SceneCase):
     """A bar that is held in one direction or two; a gap that closes before it is."""
 
-    name: ClassVar[str] = "TH2"
-    title: ClassVar[str] = "A bar that may not expand"
-    source: ClassVar[str] = "Hooke's law: s = -E alpha T, over 1 - nu for each direction held"
-    formulations: ClassVar[tuple[str, ...]] = (*MESHES, "quads", "splines", "multipliers")
+    name = "TH2"
+    title = "A bar that may not expand"
+    source = "Hooke's law: s = -E alpha T, over 1 - nu for each direction held"
+    formulations = (*MESHES, "quads", "splines", "multipliers")
     plane: str = "stress"
     axes: str = "x"
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return both planes, held along x and along x and y."""
-        return [cls(plane, axes) for plane in ("stress", "strain") for axes in ("x", "xy")]
+    parameters: ClassVar = {"plane": ("stress", "strain"), "axes": ("x", "xy")}
 
     @property
     def variant(self) -> str:
@@ -85,7 +81,6 @@ class Restrained(SceneCase):
         return text.scene(head, [*bar, *held, given("bar", 30.0)])
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the stresses."""
         across = {"xy": -11.25e6, "x": -9e6}[self.axes]
         strained = {"xy": -15e6, "x": -11.25e6}[self.axes]
         stress = across if self.plane == "stress" else strained
@@ -128,7 +123,6 @@ class ClosingGap(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the stress of the bar."""
         stress = float(run.stress[0, 0])
         give = "supports of blocks are springs of 1000 E; the wall is a million times stiffer"
         return {"sxx of the bar (Pa)": Check(stress, -6e6, 2e-3, give)}
@@ -162,7 +156,6 @@ class Bimetal(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare curvature between the middle and the root, and stresses across the middle."""
         middle = float(last_way(run, "middle")[1])
         curvature = -2 * middle / 10.0**2
         y = np.array([0.001, 0.399, 0.401, 0.999])

@@ -1,8 +1,7 @@
 """A plate with a hole under tension (Kirsch 1898)."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import ClassVar
 
 import numpy as np
 
@@ -60,8 +59,8 @@ def kirsch(plane: str) -> Exact:
 class HoledPlate(ContinuumCase):
     """A quarter of the plate, cut off at 4 radii, with the exact tractions there."""
 
-    size: ClassVar[float] = 0.25
-    source: ClassVar[str] = "Closed form of Kirsch with its own tractions on the edge"
+    size = 0.25
+    source = "Closed form of Kirsch with its own tractions on the edge"
     plane: str = "strain"
 
     def problem(self, formulation: Formulation) -> Problem:
@@ -83,23 +82,14 @@ class HoledPlate(ContinuumCase):
 class Hole(HoledPlate):
     """Energy, displacements at the hole and the threefold stress beside it."""
 
-    name: ClassVar[str] = "A5 values"
-    title: ClassVar[str] = "Plate with a hole"
-    formulations: ClassVar[tuple[str, ...]] = ("manifold", "manifold degree 2", "quads")
+    name = "A5 values"
+    title = "Plate with a hole"
+    formulations = ("manifold", "manifold degree 2", "quads")
     plane: str = "strain"
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return both states of plane."""
-        return [cls("strain"), cls("stress")]
-
-    @property
-    def variant(self) -> str:
-        """The state of plane."""
-        return f"plane {self.plane}"
+    parameters: ClassVar = {"plane": ("strain", "stress")}
+    label = "plane {0.plane}"
 
     def checks(self, formulation: str) -> Checks:
-        """Compare energy, displacements and stresses."""
         found = self.solved(formulation)
         strain = self.plane == "strain"
         energy, pull, squeeze = (
@@ -128,9 +118,9 @@ class Hole(HoledPlate):
 class HoleRates(HoledPlate):
     """Errors at a curved hole fall by the degree plus one in energy, plus two in displacement."""
 
-    name: ClassVar[str] = "A5 rates"
-    title: ClassVar[str] = "Plate with a hole, orders of convergence"
-    formulations: ClassVar[tuple[str, ...]] = ("finite elements", "manifold", "manifold degree 2")
+    name = "A5 rates"
+    title = "Plate with a hole, orders of convergence"
+    formulations = ("finite elements", "manifold", "manifold degree 2")
     plane: str = "strain"
 
     @property

@@ -1,8 +1,7 @@
 """Bodies that meet: a drop on a springy floor, and blocks that exchange their velocities."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -43,20 +42,19 @@ def _drop(gap: float, duration: float, step: float, integrator: str, velocity: f
     )
 
 
-@dataclass(frozen=True)
 class Drop(SceneCase):
     """A block that fell 1 m meets the floor: penetration, duration, height of rebound.
 
     The scene begins 1 mm above the floor with the velocity of the fall so far.
     """
 
-    name: ClassVar[str] = "B7 rebound"
-    title: ClassVar[str] = "Block dropped by 1 m on a floor of springs"
-    source: ClassVar[str] = "m x'' = m g - k x with x' = sqrt(2 g h) at touch"
-    formulations: ClassVar[tuple[str, ...]] = ("rigid",)
-    step: ClassVar[float] = 2e-5
-    gap: ClassVar[float] = 1e-3
-    duration: ClassVar[float] = 0.0125
+    name = "B7 rebound"
+    title = "Block dropped by 1 m on a floor of springs"
+    source = "m x'' = m g - k x with x' = sqrt(2 g h) at touch"
+    formulations = ("rigid",)
+    step = 2e-5
+    gap = 1e-3
+    duration = 0.0125
 
     def scene(self) -> str:
         """Return the last millimetre of the fall and the impact, undamped."""
@@ -64,7 +62,6 @@ class Drop(SceneCase):
         return _drop(self.gap, self.duration, self.step, "newmark", velocity)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the deepest point, the time below the floor and the time of flight after it."""
         time, height = run.history["time"], way(run, "corner")[:, 1] + self.gap
         below = np.flatnonzero(height < 0)
         ends = [below[0] - 1, below[-1]]
@@ -85,29 +82,20 @@ class Drop(SceneCase):
 class NoGain(SceneCase):
     """Dropped with coarse steps, the block never has more energy than at the start."""
 
-    name: ClassVar[str] = "B7 energy"
-    title: ClassVar[str] = "Block dropped by 1 m with 10 steps in contact"
-    source: ClassVar[str] = "Conservation of energy: a gain is a failure"
-    formulations: ClassVar[tuple[str, ...]] = ("rigid",)
+    name = "B7 energy"
+    title = "Block dropped by 1 m with 10 steps in contact"
+    source = "Conservation of energy: a gain is a failure"
+    formulations = ("rigid",)
     step: float = 1e-3
     integrator: str = "shi"
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return ten steps and two steps in contact, each with every integrator."""
-        return [cls(step, kind) for kind in INTEGRATORS for step in (1e-3, 5e-3)]
-
-    @property
-    def variant(self) -> str:
-        """Integrator and step."""
-        return f"{self.integrator}, step {self.step:g} s"
+    parameters: ClassVar = {"integrator": INTEGRATORS, "step": (1e-3, 5e-3)}
+    label = "{0.integrator}, step {0.step:g} s"
 
     def scene(self) -> str:
         """Return the fall and the rebound."""
         return _drop(1.0, 1.5, self.step, self.integrator, 0.0)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the highest rebound and the largest energy with the start's."""
         height, history = way(run, "corner")[:, 1], run.history
         deepest = int(height.argmin())
         energy = history["kinetic_energy"] + history["contact_energy"] - history["external_work"]
@@ -125,21 +113,13 @@ class NoGain(SceneCase):
 class Exchange(SceneCase):
     """Two equal blocks meet centrally: 1 and 0 m/s become 0 and 1, momentum stays."""
 
-    name: ClassVar[str] = "B8"
-    title: ClassVar[str] = "Central impact of two equal blocks"
-    source: ClassVar[str] = "Conservation of momentum and energy"
-    formulations: ClassVar[tuple[str, ...]] = ("rigid", "dda", "degree 2")
+    name = "B8"
+    title = "Central impact of two equal blocks"
+    source = "Conservation of momentum and energy"
+    formulations = ("rigid", "dda", "degree 2")
     integrator: str = "newmark"
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return every integrator."""
-        return [cls(kind) for kind in INTEGRATORS]
-
-    @property
-    def variant(self) -> str:
-        """The integrator."""
-        return self.integrator
+    parameters: ClassVar = {"integrator": INTEGRATORS}
+    label = "{0.integrator}"
 
     def scene(self) -> str:
         """Return two free squares, one of them moving."""
@@ -157,7 +137,6 @@ class Exchange(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare velocities and momenta at the end."""
         left, right = rates(run)[:, 0]
         px, py, spin = momentum(run)
         exact = "the benchmark's tolerance, of a momentum of 1000 N s"
@@ -182,21 +161,14 @@ class Exchange(SceneCase):
 class Oblique(SceneCase):
     """Spinning blocks meet at a corner with friction: momentum stays whatever the damping."""
 
-    name: ClassVar[str] = "B8 oblique"
-    title: ClassVar[str] = "Oblique impact of two spinning blocks with friction"
-    source: ClassVar[str] = "Conservation of momentum and angular momentum"
-    formulations: ClassVar[tuple[str, ...]] = ("rigid", "dda", "degree 2", "newmark", "manifold")
+    name = "B8 oblique"
+    title = "Oblique impact of two spinning blocks with friction"
+    source = "Conservation of momentum and angular momentum"
+    formulations = ("rigid", "dda", "degree 2", "newmark", "manifold")
     step: float = 1e-3
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return a step longer than the impact and one that resolves it."""
-        return [cls(1e-3), cls(1e-4)]
-
-    @property
-    def variant(self) -> str:
-        """The step."""
-        return f"step {self.step:g} s"
+    # A step longer than the impact and one that resolves it.
+    parameters: ClassVar = {"step": (1e-3, 1e-4)}
+    label = "step {0.step:g} s"
 
     def scene(self) -> str:
         """Return a square flying with spin at another, which is free."""
@@ -214,7 +186,6 @@ class Oblique(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare momenta at the end with those of the start."""
         mass = 1000.0
         centre = text.turned(np.array([[0.5, 0.5]]), 0.3)[0]
         spin = mass * (1.5 / 6 + centre[0] * 1.0 - centre[1] * 2.0)

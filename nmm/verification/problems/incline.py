@@ -47,22 +47,14 @@ def _head(title: str, duration: float | None, step: float) -> str:
 class FrictionThreshold(SceneCase):
     """A square block rests when friction exceeds the slope, and slides when it does not."""
 
-    name: ClassVar[str] = "B1 friction"
-    title: ClassVar[str] = "Block on a slope of 30 degrees: rest or slip"
-    source: ClassVar[str] = "Coulomb: rest iff tan phi >= tan alpha, else a = g (sin a - cos a tan)"
+    name = "B1 friction"
+    title = "Block on a slope of 30 degrees: rest or slip"
+    source = "Coulomb: rest iff tan phi >= tan alpha, else a = g (sin a - cos a tan)"
     friction: float = 30.5
     duration: float = 1.0
-    slope: ClassVar[float] = 30.0
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return friction angles above and below the slope's."""
-        return [cls(30.5), cls(29.5)]
-
-    @property
-    def variant(self) -> str:
-        """The friction angle."""
-        return f"phi {self.friction}"
+    slope = 30.0
+    parameters: ClassVar = {"friction": (30.5, 29.5)}
+    label = "phi {0.friction}"
 
     def scene(self) -> str:
         """Return a held base and a block of 1 m on it."""
@@ -79,7 +71,6 @@ class FrictionThreshold(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare creep with its limit, or the way with that of the acceleration."""
         slid = way(run, "toe") @ down(self.slope)
         if self.friction >= self.slope:
             half = slid[len(slid) // 2]
@@ -102,23 +93,15 @@ class CohesiveThreshold(SceneCase):
     fails as one.
     """
 
-    name: ClassVar[str] = "B1 cohesion"
-    title: ClassVar[str] = "Slab bonded to a slope of 30 degrees"
-    source: ClassVar[str] = "Balance of forces along the slope"
+    name = "B1 cohesion"
+    title = "Slab bonded to a slope of 30 degrees"
+    source = "Balance of forces along the slope"
     factor: float = 1.02
-    slope: ClassVar[float] = 30.0
-    friction: ClassVar[float] = 20.0
-    height: ClassVar[float] = 0.01
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return cohesions 2 % above and 2 % below the limit."""
-        return [cls(1.02), cls(0.98)]
-
-    @property
-    def variant(self) -> str:
-        """The cohesion over that which just holds."""
-        return f"c {self.factor}"
+    slope = 30.0
+    friction = 20.0
+    height = 0.01
+    parameters: ClassVar = {"factor": (1.02, 0.98)}  # cohesions 2 % above and 2 % below the limit
+    label = "c {0.factor}"
 
     @property
     def cohesion(self) -> float:
@@ -142,7 +125,6 @@ class CohesiveThreshold(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the way with that of a slab without cohesion, or with none."""
         slid = float(last_way(run, "toe") @ down(self.slope))
         if self.factor >= 1:
             return {
@@ -158,26 +140,19 @@ class CohesiveThreshold(SceneCase):
 class Sliding(SceneCase):
     """Way, velocity and energy of a sliding block."""
 
-    name: ClassVar[str] = "B2"
-    title: ClassVar[str] = "Block sliding down a slope"
-    source: ClassVar[str] = "s = a t^2 / 2 with a = g (sin alpha - cos alpha tan phi)"
-    formulations: ClassVar[tuple[str, ...]] = (
-        *("dda", "degree 2", "newmark", "finite elements"),
-        *EXACT,
-    )
+    name = "B2"
+    title = "Block sliding down a slope"
+    source = "s = a t^2 / 2 with a = g (sin alpha - cos alpha tan phi)"
+    formulations = ("dda", "degree 2", "newmark", "finite elements", *EXACT)
     slope: float = 30.0
     friction: float = 20.0
     step: float = 0.01
+    label = "{0.slope:g} and {0.friction:g} degrees"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return both pairs of angles."""
         return [cls(30.0, 20.0), cls(45.0, 30.0)]
-
-    @property
-    def variant(self) -> str:
-        """The angles of slope and friction."""
-        return f"{self.slope:g} and {self.friction:g} degrees"
 
     def scene(self) -> str:
         """Return a held base and a block of 1 m that slides on it for 1 s."""
@@ -195,7 +170,6 @@ class Sliding(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare way, velocity, and the balance of energies."""
         a = acceleration(self.slope, self.friction)
         slid = float(last_way(run, "toe") @ down(self.slope))
         velocity = float(rates(run)[1, :2] @ down(self.slope))
@@ -215,22 +189,18 @@ class Sliding(SceneCase):
 class Train(SceneCase):
     """Two blocks on a slope: the smooth upper one pushes the rough lower one, or they part."""
 
-    name: ClassVar[str] = "B4"
-    title: ClassVar[str] = "Two blocks in train on a slope of 30 degrees"
-    source: ClassVar[str] = "Balance of forces along the slope of both blocks together"
+    name = "B4"
+    title = "Two blocks in train on a slope of 30 degrees"
+    source = "Balance of forces along the slope of both blocks together"
     lower: float = 35.0
     upper: float = 15.0
-    slope: ClassVar[float] = 30.0
+    slope = 30.0
+    label = "lower {0.lower:g}, upper {0.upper:g}"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return the pushing pair and the same with the friction angles swapped."""
         return [cls(35.0, 15.0), cls(15.0, 35.0)]
-
-    @property
-    def variant(self) -> str:
-        """The friction angles of the lower and the upper block."""
-        return f"lower {self.lower:g}, upper {self.upper:g}"
 
     def scene(self) -> str:
         """Return a lower block of 1000 kg and an upper one of 2000 kg."""
@@ -254,7 +224,6 @@ class Train(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare ways and the force between the blocks."""
         low, up = (float(last_way(run, name) @ down(self.slope)) for name in ("lower", "upper"))
         reason = "the benchmark's 0.2 % of B2"
         masses_of = masses(run)[1:]

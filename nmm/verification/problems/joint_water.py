@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -58,7 +58,6 @@ class UpliftByFlow(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare head, flow and what is left of the weight on the base."""
         flow: JointFlow = run.stepper.plan.effects["joint flow"]  # type: ignore[assignment]
         heads = flow.heads(run.state, run.state.time)
         places = flow.sites.places
@@ -82,10 +81,10 @@ class UpliftByFlow(SceneCase):
 class LiftedBlock(SceneCase):
     """Water under a block on a joint with a spring opens it by what it takes off the joint."""
 
-    name: ClassVar[str] = "WA5"
-    title: ClassVar[str] = "A joint that its water opens"
-    source: ClassVar[str] = "w = w0 - (W - U) / (k_n L), U = w h L, W = 1 MN/m on 4 m"
-    formulations: ClassVar[tuple[str, ...]] = ("dda",)
+    name = "WA5"
+    title = "A joint that its water opens"
+    source = "w = w0 - (W - U) / (k_n L), U = w h L, W = 1 MN/m on 4 m"
+    formulations = ("dda",)
     stiffness: float = 1e10
 
     def scene(self) -> str:
@@ -105,7 +104,6 @@ class LiftedBlock(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare aperture and pressure."""
         aperture = run.history["joint flow:aperture"][-1]
         exact = 0.2e-3 - (1e6 - 9810 * 20 * 4) / (self.stiffness * 4)
         return {
@@ -152,27 +150,23 @@ class JointBridge(Case):
 class PressureInJoint(SceneCase):
     """A joint whose far end is closed fills from one that is pressed: it opens and lets more in."""
 
-    name: ClassVar[str] = "WA6"
-    title: ClassVar[str] = "Pressure that spreads along a joint"
-    source: ClassVar[str] = "S p' = w^3 / (12 mu) p'', S = w / K + 1 / k_n: the series of a slab"
-    formulations: ClassVar[tuple[str, ...]] = ("dda",)
-    aperture: ClassVar[float] = 1e-4
-    length: ClassVar[float] = 20.0
-    stiffness: ClassVar[float] = 1e10
-    blocks: ClassVar[int] = 20
+    name = "WA6"
+    title = "Pressure that spreads along a joint"
+    source = "S p' = w^3 / (12 mu) p'', S = w / K + 1 / k_n: the series of a slab"
+    formulations = ("dda",)
+    aperture = 1e-4
+    length = 20.0
+    stiffness = 1e10
+    blocks = 20
     time: float = 0.3
     exact: tuple[float, float] = (0.39319618, 0.57015747)
+    label = "t D / L^2 = {0.time:g}"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return three times, with the pressures at the closed end and half way."""
         known = {0.1: (0.05069464, 0.26434868), 0.3: cls.exact, 1.0: (0.89202296, 0.92364870)}
         return [cls(time, exact) for time, exact in known.items()]
-
-    @property
-    def variant(self) -> str:
-        """The time in units of the squared length over the diffusivity."""
-        return f"t D / L^2 = {self.time:g}"
 
     def scene(self) -> str:
         """Return a row of stiff blocks on a floor, held by the joint's springs alone."""
@@ -203,7 +197,6 @@ class PressureInJoint(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare pressures, over that of the pump, and the water that came."""
         flow: JointStorage = run.stepper.plan.effects["transient joint flow"]  # type: ignore[assignment]
         place = flow.sites.places[:, 0]
         found = flow.pressures(run.state, run.state.time) / 1e3

@@ -1,8 +1,7 @@
 """Joints with stiffness and strength: jointed column, direct shear, pull-off, a chain of bonds."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -15,18 +14,17 @@ if TYPE_CHECKING:
 ROUNDING = "the linear fields of blocks hold the solution; residual 1e-8"
 
 
-@dataclass(frozen=True)
 class JointedColumn(SceneCase):
     """Blocks and joints in series: ``u = sigma (H / E + n / kn)``."""
 
-    name: ClassVar[str] = "B18 column"
-    title: ClassVar[str] = "Column with joints of given stiffness"
-    source: ClassVar[str] = "Springs in series"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "degree 2", *MESHES)
-    joints: ClassVar[int] = 4
-    stress: ClassVar[float] = -1e6
-    modulus: ClassVar[float] = 1e10
-    stiffness: ClassVar[float] = 5e9
+    name = "B18 column"
+    title = "Column with joints of given stiffness"
+    source = "Springs in series"
+    formulations = ("dda", "degree 2", *MESHES)
+    joints = 4
+    stress = -1e6
+    modulus = 1e10
+    stiffness = 5e9
 
     def scene(self) -> str:
         """Return a column of 5 m in 5 blocks, pressed on its top.
@@ -55,7 +53,6 @@ class JointedColumn(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the shortening and the stress."""
         short = last_way(run, "top")[1] - last_way(run, "foot")[1]
         length = self.joints + 1
         expected = self.stress * (length / self.modulus + self.joints / self.stiffness)
@@ -67,19 +64,18 @@ class JointedColumn(SceneCase):
         }
 
 
-@dataclass(frozen=True)
 class DirectShear(SceneCase):
     """A bonded joint is sheared under constant load: slope, peak and residual resistance."""
 
-    name: ClassVar[str] = "B18 shear"
-    title: ClassVar[str] = "Direct shear of a bonded joint"
-    source: ClassVar[str] = "Slope ks A, peak c A + N tan phi, residual N tan phi"
-    formulations: ClassVar[tuple[str, ...]] = ("rigid", "dda")
-    stiffness: ClassVar[float] = 1e9
-    cohesion: ClassVar[float] = 2e5
-    friction: ClassVar[float] = 30.0
-    load: ClassVar[float] = 1e5
-    travel: ClassVar[float] = 1e-3
+    name = "B18 shear"
+    title = "Direct shear of a bonded joint"
+    source = "Slope ks A, peak c A + N tan phi, residual N tan phi"
+    formulations = ("rigid", "dda")
+    stiffness = 1e9
+    cohesion = 2e5
+    friction = 30.0
+    load = 1e5
+    travel = 1e-3
 
     def scene(self) -> str:
         """Return a block of 1 m on another, pressed by its weight and driven sideways.
@@ -112,7 +108,6 @@ class DirectShear(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the reaction against the displacement."""
         force, slip = run.history["reaction:drive:x"], way(run, "upper")[:, 0]
         friction = self.load * float(np.tan(np.radians(self.friction)))
         peak = int(force.argmax())
@@ -132,17 +127,13 @@ class DirectShear(SceneCase):
 class Chain(SceneCase):
     """Of bonds in series the weakest breaks, at its own strength."""
 
-    name: ClassVar[str] = "C3"
-    title: ClassVar[str] = "Bar of 100 mm with bonds of 3.0, 2.7 and 3.3 MPa"
-    source: ClassVar[str] = "Peak = smallest f_t times A; u = sigma L / E up to it"
-    formulations: ClassVar[tuple[str, ...]] = ("dda",)
+    name = "C3"
+    title = "Bar of 100 mm with bonds of 3.0, 2.7 and 3.3 MPa"
+    source = "Peak = smallest f_t times A; u = sigma L / E up to it"
+    formulations = ("dda",)
     strengths: tuple[float, ...] = (3.0, 2.7, 3.3)
-    area: ClassVar[float] = 1e-4
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return one bond and three in series."""
-        return [cls((3.0,)), cls((3.0, 2.7, 3.3))]
+    area = 1e-4
+    parameters: ClassVar = {"strengths": ((3.0,), (3.0, 2.7, 3.3))}  # one bond and three in series
 
     @property
     def variant(self) -> str:
@@ -180,7 +171,6 @@ class Chain(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the peak load and say which bond is the most loaded there."""
         weakest = min(self.strengths) * 1e6 * self.area
         found = run.summary.failure_load
         frame = run.frames[-1]

@@ -1,8 +1,7 @@
 """Which way cracks kink, and how near they are to it."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import ClassVar
 
 import numpy as np
 
@@ -25,17 +24,11 @@ POISSON = 0.3
 class MixedKinks(Case):
     """Kinks of given intensities; no body is solved."""
 
-    name: ClassVar[str] = "GR1"
-    title: ClassVar[str] = "Kinks of cracks in mixed mode"
-    source: ClassVar[str] = (
-        "Largest hoop stress and least density in the sector where it pulls, by direct search"
-    )
+    name = "GR1"
+    title = "Kinks of cracks in mixed mode"
+    source = "Largest hoop stress and least density in the sector where it pulls, by direct search"
     criterion: str = "hoop_stress"
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return both criteria."""
-        return [cls(criterion) for criterion in ANGLES]
+    parameters: ClassVar = {"criterion": ANGLES}
 
     @property
     def variant(self) -> str:
@@ -43,7 +36,6 @@ class MixedKinks(Case):
         return self.criterion.replace("_", " ")
 
     def checks(self, formulation: str) -> Checks:
-        """Compare every pair of intensities."""
         one, two = np.transpose(MIXED)
         found = CRITERIA.make(self.criterion).kink(one, two, np.full(len(one), 3 - 4 * POISSON))
         exact = self.criterion == "hoop_stress"

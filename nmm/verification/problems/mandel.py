@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -108,22 +108,18 @@ class SqueezedSoil(SceneCase):
     (Mandel 1953, Cryer 1963), which no theory does in which pressure spreads by itself.
     """
 
-    name: ClassVar[str] = "WA14"
-    title: ClassVar[str] = "Mandel and Cryer's rise of pressure"
-    source: ClassVar[str] = "Mandel 1953; series as in Cheng and Detournay 1988"
-    formulations: ClassVar[tuple[str, ...]] = ("quads",)
+    name = "WA14"
+    title = "Mandel and Cryer's rise of pressure"
+    source = "Mandel 1953; series as in Cheng and Detournay 1988"
+    formulations = ("quads",)
     steps: int = 40
     time: float = 0.08
+    label = "{0.steps} steps to c t / a^2 = {0.time:g}"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """While the middle rises, in steps of two lengths, and as all drains."""
         return [cls(), cls(160), cls(80, 0.5)]
-
-    @property
-    def variant(self) -> str:
-        """Number of steps and the time."""
-        return f"{self.steps} steps to c t / a^2 = {self.time:g}"
 
     @property
     def slow(self) -> bool:
@@ -167,7 +163,6 @@ class SqueezedSoil(SceneCase):
         return with_cover(super().formulation(scene, name), size=0.1)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare pressures, the force of the plate, and how far the edge moves out."""
         exact = Mandel()
         place = np.array([0.02, 0.5, 0.9])
         points = np.stack([HALF * place, np.full(3, HIGH / 2)], axis=1)

@@ -1,8 +1,5 @@
 """A smooth manufactured solution on a square turned in the mesh."""
 
-from dataclasses import dataclass
-from typing import ClassVar
-
 import numpy as np
 
 from integration.arrays import Floats
@@ -51,7 +48,6 @@ def waves() -> Exact:
     return Exact(u, stress)
 
 
-@dataclass(frozen=True)
 class Waves(ContinuumCase):
     """Errors of a smooth field fall by the degree plus one in energy, plus two in displacement.
 
@@ -59,14 +55,14 @@ class Waves(ContinuumCase):
     what counts is the geometric mean of the three errors.
     """
 
-    name: ClassVar[str] = "A8 triangles"
-    title: ClassVar[str] = "Smooth manufactured solution on triangles, orders of convergence"
-    source: ClassVar[str] = (
+    name = "A8 triangles"
+    title = "Smooth manufactured solution on triangles, orders of convergence"
+    source = (
         "u = (sin pi x cos pi y, cos pi x sin pi y), b = 2 pi^2 (lambda + 2 mu) u; polynomials of "
         "degree p times hats hold all of degree p + 1"
     )
-    formulations: ClassVar[tuple[str, ...]] = ("finite elements", "manifold")
-    size: ClassVar[float] = 1 / 8
+    formulations = ("finite elements", "manifold")
+    size = 1 / 8
 
     def problem(self, formulation: Formulation) -> Problem:
         """Return the square, turned with the mesh's position, held all around."""
@@ -112,13 +108,12 @@ class Waves(ContinuumCase):
         return errors.energy, errors.displacement
 
 
-@dataclass(frozen=True)
 class WavesOnQuads(Waves):
     """Errors of a smooth field on bilinear quadrilaterals, cut by a turned square."""
 
-    name: ClassVar[str] = "A8 quads"
-    title: ClassVar[str] = "Smooth manufactured solution on quads, orders of convergence"
-    formulations: ClassVar[tuple[str, ...]] = ("bilinear quads", "quads")
+    name = "A8 quads"
+    title = "Smooth manufactured solution on quads, orders of convergence"
+    formulations = ("bilinear quads", "quads")
 
     @property
     def slow(self) -> bool:
@@ -126,13 +121,12 @@ class WavesOnQuads(Waves):
         return True
 
 
-@dataclass(frozen=True)
 class WavesOfDegreeTwo(Waves):
     """Errors of a smooth field under quadratic covers, cut by a turned square."""
 
-    name: ClassVar[str] = "A8 quadratic"
-    title: ClassVar[str] = "Smooth manufactured solution, quadratic covers, orders of convergence"
-    formulations: ClassVar[tuple[str, ...]] = ("manifold degree 2", "quads degree 2")
+    name = "A8 quadratic"
+    title = "Smooth manufactured solution, quadratic covers, orders of convergence"
+    formulations = ("manifold degree 2", "quads degree 2")
 
     @property
     def slow(self) -> bool:

@@ -1,8 +1,5 @@
 """Free vibration of a square."""
 
-from dataclasses import dataclass
-from typing import ClassVar
-
 import numpy as np
 
 from nmm.formulation import Formulation
@@ -13,7 +10,6 @@ from nmm.verification.continuum import ContinuumCase, Problem, on_mesh, polygon
 LAME = 2.755359030
 
 
-@dataclass(frozen=True)
 class FreeSquare(ContinuumCase):
     """A free square has three motions without frequency, and the mode of Lamé is among the next.
 
@@ -21,11 +17,11 @@ class FreeSquare(ContinuumCase):
     closed form, pi sqrt(2 mu / rho).
     """
 
-    name: ClassVar[str] = "A14"
-    title: ClassVar[str] = "Modes of a free square"
-    source: ClassVar[str] = "Lamé's mode: omega = pi sqrt(2 mu / rho)"
-    formulations: ClassVar[tuple[str, ...]] = ("manifold", "manifold degree 2", "quads")
-    size: ClassVar[float] = 0.2
+    name = "A14"
+    title = "Modes of a free square"
+    source = "Lamé's mode: omega = pi sqrt(2 mu / rho)"
+    formulations = ("manifold", "manifold degree 2", "quads")
+    size = 0.2
 
     def problem(self, formulation: Formulation) -> Problem:
         """Return the unit square of E = 1, nu = 0.3, density 1."""
@@ -36,7 +32,6 @@ class FreeSquare(ContinuumCase):
         return Problem(solid(square, formulation.cover, [law], "stress", density=[1.0]))
 
     def checks(self, formulation: str) -> Checks:
-        """Compare the lowest nine frequencies, and that modes are orthonormal in the mass."""
         from nmm.verification.free_modes import lowest_modes
 
         model = self.problem(on_mesh(formulation, self.size)).model
@@ -60,15 +55,14 @@ class FreeSquare(ContinuumCase):
         }
 
 
-@dataclass(frozen=True)
 class InertiaOfCovers(ContinuumCase):
     """Mass and inertia of a body from the mass matrix, on covers that its outline cuts."""
 
-    name: ClassVar[str] = "IN4"
-    title: ClassVar[str] = "Mass and inertia of a body that covers overlap"
-    source: ClassVar[str] = "rho A, rho (Ixx + Iyy) of the polygon; a triangle of 3 by 2 m"
-    formulations: ClassVar[tuple[str, ...]] = ("manifold", "manifold degree 2", "quads", "splines")
-    size: ClassVar[float] = 0.37
+    name = "IN4"
+    title = "Mass and inertia of a body that covers overlap"
+    source = "rho A, rho (Ixx + Iyy) of the polygon; a triangle of 3 by 2 m"
+    formulations = ("manifold", "manifold degree 2", "quads", "splines")
+    size = 0.37
 
     def problem(self, formulation: Formulation) -> Problem:
         """Return a triangle of density 2."""
@@ -79,7 +73,6 @@ class InertiaOfCovers(ContinuumCase):
         return Problem(solid(triangle, formulation.cover, [law], "stress", density=[2.0]))
 
     def checks(self, formulation: str) -> Checks:
-        """Compare what rigid motions of one unit have of momentum: mass and inertia."""
         model = self.problem(on_mesh(formulation, self.size)).model
         rigid = model.manifold.rigid_modes.toarray()
         found = rigid.T @ (model.mass @ rigid)

@@ -1,6 +1,6 @@
 """A force that travels over a beam."""
 
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -24,11 +24,11 @@ class MovingForce(SceneCase):
     name, title = "ML1", "Force that travels over a beam"
     source = "Fryba (1972): modes of Euler and Bernoulli's beam under a moving force"
     formulations = ("manifold degree 2", "quads degree 2")
-    length: ClassVar[float] = 10.0
-    height: ClassVar[float] = 0.4
-    modulus: ClassVar[float] = 30e9
-    density: ClassVar[float] = 2500.0
-    force: ClassVar[float] = 1e4
+    length = 10.0
+    height = 0.4
+    modulus = 30e9
+    density = 2500.0
+    force = 1e4
 
     @property
     def first(self) -> float:
@@ -64,7 +64,6 @@ class MovingForce(SceneCase):
         return with_cover(super().formulation(scene, name), size=self.length / 8)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the deflection over the crossing."""
         time, found = run.history["time"], -way(run, "middle")[:, 1]
         expected = np.zeros_like(time)
         mass = self.density * self.height * self.length

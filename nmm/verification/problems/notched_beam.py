@@ -23,25 +23,21 @@ class NotchedBeam(SceneCase):
     The way is prescribed, not the load: a load has no equilibrium past its peak.
     """
 
-    name: ClassVar[str] = "C5"
-    title: ClassVar[str] = "Notched beam of Petersson, span 2 m, with a cohesive plane"
-    source: ClassVar[str] = "Graded finite elements of degree 4 with the same plane"
-    formulations: ClassVar[tuple[str, ...]] = ("bilinear quads",)
+    name = "C5"
+    title = "Notched beam of Petersson, span 2 m, with a cohesive plane"
+    source = "Graded finite elements of degree 4 with the same plane"
+    formulations = ("bilinear quads",)
     peaks: ClassVar[dict[str, float]] = {"linear": 853.0, "bilinear": 753.5}
-    size: ClassVar[float] = 0.0125
-    way: ClassVar[float] = 6e-4
-    mouth: ClassVar[float] = 1e-6
+    size = 0.0125
+    way = 6e-4
+    mouth = 1e-6
     softening: str = "linear"
+    label = "{0.softening} softening"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return both softening curves."""
         return [cls(curve) for curve in cls.peaks]
-
-    @property
-    def variant(self) -> str:
-        """The softening curve."""
-        return f"{self.softening} softening"
 
     @property
     def slow(self) -> bool:
@@ -80,7 +76,6 @@ class NotchedBeam(SceneCase):
         return with_cover(super().formulation(scene, name), size=self.size)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the largest load on the way, and see that the beam softens after it."""
         load = -run.history["reaction:push:y"]
         reason = "the benchmark's; squares of 12.5 mm are 1 % too stiff"
         passed = "the largest load is a peak: at the end the load is a twentieth below it"

@@ -86,25 +86,21 @@ def laid(run: "Run") -> Floats:
 class CrackAtHole(BegunCrack):
     """A plate with a hole of radius 1 under tension: a crack begins at its flank."""
 
-    name: ClassVar[str] = "GR13"
-    title: ClassVar[str] = "Crack that begins at a hole"
-    source: ClassVar[str] = (
+    name = "GR13"
+    title = "Crack that begins at a hole"
+    source = (
         "2 (1 - x) / (2 - x^2 - x^4), x = R / (R + d): mean of Kirsch's stress over d at the "
         "strength (Whitney and Nuismer 1974); tractions of the infinite plate at three radii"
     )
-    size: ClassVar[float] = 0.15
+    size = 0.15
     length: float = 0.5
     angle: float = 0.0
+    label = "d = {0.length:g} R, net at {0.angle:g} degrees"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return three lengths, one of them on three nets."""
         return [*(cls(length) for length in (0.25, 0.5, 1.0)), cls(0.5, 17.0), cls(0.5, 41.0)]
-
-    @property
-    def variant(self) -> str:
-        """The length and the turn of the net."""
-        return f"d = {self.length:g} R, net at {self.angle:g} degrees"
 
     @property
     def tables(self) -> Sequence[str]:
@@ -114,7 +110,6 @@ class CrackAtHole(BegunCrack):
         return [f"{plate}holes = [{ring(128).tolist()}]\n", *led(box, KIRSCH)]
 
     def measure(self, run: "Run") -> Checks:
-        """Compare load, place and direction."""
         x = 1 / (1 + self.length)
         history, way = run.history, laid(run)
         along = abs(float(history["fracture:nucleation:x"][0]))
@@ -138,13 +133,13 @@ class CrackAtHole(BegunCrack):
 class CrackInPlate(BegunCrack):
     """A plate without a hole under even stress, or in bending."""
 
-    name: ClassVar[str] = "GR14"
-    title: ClassVar[str] = "Crack that begins at an even edge"
-    source: ClassVar[str] = (
+    name = "GR14"
+    title = "Crack that begins at an even edge"
+    source = (
         "Stress that is linear along the line: at the strength where it is even, at "
         "1 / (1 - d / h) of it in bending of a depth h"
     )
-    size: ClassVar[float] = 0.11
+    size = 0.11
     length: float = 0.2
     angle: float = 17.0
     pulled: float = 0.0
@@ -174,7 +169,6 @@ class CrackInPlate(BegunCrack):
         return [plate, *led(box, ["1-2*y", "0", "0"] if self.bends else even)]
 
     def measure(self, run: "Run") -> Checks:
-        """Compare load and direction."""
         expected = 1 / (1 - self.length) if self.bends else 1.0
         turn, way = np.radians(self.pulled), laid(run)
         off = way @ np.array([np.cos(turn), np.sin(turn)]) / np.hypot(*way)

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -64,15 +64,12 @@ class PiecesInFlight(Case):
     """A block that spins, or moves linearly, is cut at 50 degrees."""
 
     spins: bool = True
-    name: ClassVar[str] = "SP1"
-    title: ClassVar[str] = "Pieces of a block in flight go on as its points did"
-    source: ClassVar[str] = "Rigid-body mechanics: velocities of the centroids, nothing lost"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "degree 2", "manifold", "bilinear quads")
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return a spin, and a motion with a gradient of velocity."""
-        return [cls(True), cls(False)]
+    name = "SP1"
+    title = "Pieces of a block in flight go on as its points did"
+    source = "Rigid-body mechanics: velocities of the centroids, nothing lost"
+    formulations = ("dda", "degree 2", "manifold", "bilinear quads")
+    # A spin, and a motion with a gradient of velocity.
+    parameters: ClassVar = {"spins": (True, False)}
 
     @property
     def variant(self) -> str:

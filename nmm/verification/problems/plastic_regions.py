@@ -26,26 +26,18 @@ class PlasticCylinder(SceneCase):
     incompressible, whose stress across is the mean of the others; the collapse is in any case.
     """
 
-    name: ClassVar[str] = "PL3"
-    title: ClassVar[str] = "Thick cylinder that flows"
-    source: ClassVar[str] = (
+    name = "PL3"
+    title = "Thick cylinder that flows"
+    source = (
         "Hill 1950: p = k (1 - c^2 / b^2 + 2 ln(c / a)), u(b) = 2 (1 - nu^2) k c^2 / (E b), "
         "collapse 2 k ln(b / a), k = 1"
     )
-    formulations: ClassVar[tuple[str, ...]] = ("manifold degree 2", "quads degree 2")
+    formulations = ("manifold degree 2", "quads degree 2")
     law: str = "von_mises"
-    modulus: ClassVar[float] = 1000.0
-    sides: ClassVar[int] = 32
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return both laws."""
-        return [cls("von_mises"), cls("mohr_coulomb")]
-
-    @property
-    def variant(self) -> str:
-        """The law."""
-        return self.law
+    modulus = 1000.0
+    sides = 32
+    parameters: ClassVar = {"law": ("von_mises", "mohr_coulomb")}
+    label = "{0.law}"
 
     @property
     def poisson(self) -> float:
@@ -85,7 +77,6 @@ class PlasticCylinder(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the widening as the plastic zone grows, and the collapse."""
         at = run.history["load_factor"]
         checks: Checks = {}
         for wanted in (0.9, 1.2, 1.3):
@@ -114,12 +105,10 @@ class Footing(SceneCase):
     whether the footing is smooth or rough makes no difference.
     """
 
-    name: ClassVar[str] = "PL4"
-    title: ClassVar[str] = "Strip footing"
-    source: ClassVar[str] = (
-        "Prandtl 1920, Reissner 1924: Nc = 2 + pi without friction, 14.8347 at 20"
-    )
-    formulations: ClassVar[tuple[str, ...]] = ("quads degree 2",)
+    name = "PL4"
+    title = "Strip footing"
+    source = "Prandtl 1920, Reissner 1924: Nc = 2 + pi without friction, 14.8347 at 20"
+    formulations = ("quads degree 2",)
     friction: int = 0
     law: str = "mohr_coulomb"
 
@@ -173,7 +162,6 @@ class Footing(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the pressure at which the soil flows."""
         found = run.summary.failure_factor or np.nan
         return {
             "pressure over cohesion": Check(

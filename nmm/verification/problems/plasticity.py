@@ -1,8 +1,7 @@
 """Bodies that flow: a bar, a beam that bends, a thick cylinder under inner pressure."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -40,7 +39,6 @@ def roller(name: str, segment: Sequence[tuple[float, float]], axis: str) -> str:
     return f'[[supports]]\nname = "{name}"\nsegment = {where}\nfix = ["{axis}"]\n'
 
 
-@dataclass(frozen=True)
 class PlasticBar(SceneCase):
     """A bar is pulled beyond its yield stress and let go: it keeps its plastic strain.
 
@@ -48,16 +46,14 @@ class PlasticBar(SceneCase):
     meshes do.
     """
 
-    name: ClassVar[str] = "PL0 bar"
-    title: ClassVar[str] = "Bar pulled beyond yield and let go"
-    source: ClassVar[str] = "strain sigma / E + (sigma - Y) / H under load, (sigma - Y) / H after"
-    formulations: ClassVar[tuple[str, ...]] = (
-        *("dda", "degree 2", "finite elements", "manifold", "quads degree 2"),
-    )
-    stress: ClassVar[float] = 300.0
-    yields: ClassVar[float] = 250.0
-    hardens: ClassVar[float] = 2e4
-    modulus: ClassVar[float] = 2e5
+    name = "PL0 bar"
+    title = "Bar pulled beyond yield and let go"
+    source = "strain sigma / E + (sigma - Y) / H under load, (sigma - Y) / H after"
+    formulations = ("dda", "degree 2", "finite elements", "manifold", "quads degree 2")
+    stress = 300.0
+    yields = 250.0
+    hardens = 2e4
+    modulus = 2e5
 
     def scene(self) -> str:
         """Return the bar, 2 by 1, with a load that grows over one unit and falls over the next."""
@@ -79,7 +75,6 @@ class PlasticBar(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the strains under load and after it, and the energy that was lost."""
         strain = (way(run, "tip") - way(run, "root"))[:, 0] / 2
         top = int(np.argmin(np.abs(run.history["load_factor"] - 1)))
         plastic = (self.stress - self.yields) / self.hardens
@@ -96,20 +91,17 @@ class PlasticBar(SceneCase):
         }
 
 
-@dataclass(frozen=True)
 class PlasticBeam(SceneCase):
     """A beam under two loads fails at one and a half of the moment at which it first yields.
 
     Half of it is modelled. Between the loads the moment is constant and nothing shears.
     """
 
-    name: ClassVar[str] = "PL0 beam"
-    title: ClassVar[str] = "Plastic limit of a beam in bending"
-    source: ClassVar[str] = (
-        "M = Y h^2 / 4 = 1.5 M_yield; curvature M_y / (E I) / sqrt(3 - 2 M / M_y)"
-    )
-    formulations: ClassVar[tuple[str, ...]] = ("manifold", "manifold degree 2", "quads degree 2")
-    lever: ClassVar[float] = 6.0
+    name = "PL0 beam"
+    title = "Plastic limit of a beam in bending"
+    source = "M = Y h^2 / 4 = 1.5 M_yield; curvature M_y / (E I) / sqrt(3 - 2 M / M_y)"
+    formulations = ("manifold", "manifold degree 2", "quads degree 2")
+    lever = 6.0
 
     @property
     def slow(self) -> bool:
@@ -140,7 +132,6 @@ class PlasticBeam(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the limit, and the bow between the loads at 1.4 times the first yield."""
         at = run.history["load_factor"]
         step = int(np.argmin(np.abs(at - 1.4)))
         bow = (way(run, "bent") - way(run, "middle"))[step, 1]

@@ -1,8 +1,7 @@
 """Bars pulled out of a block, by the bond along them."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -50,21 +49,19 @@ def pulled(bond: str, way: float, increment: float, length: float = 0.3) -> str:
     )
 
 
-@dataclass(frozen=True)
 class ShearLag(SceneCase):
     """The force of a bar passes into its surroundings over a length that its bond sets."""
 
-    name: ClassVar[str] = "BO1"
-    title: ClassVar[str] = "Elastic shear lag of a bar that is pulled out"
-    source: ClassVar[str] = "F coth(beta L) / (E A beta), beta^2 = k p / (E A) (Volkersen 1938)"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "degree 2", "finite elements", "manifold")
+    name = "BO1"
+    title = "Elastic shear lag of a bar that is pulled out"
+    source = "F coth(beta L) / (E A beta), beta^2 = k p / (E A) (Volkersen 1938)"
+    formulations = ("dda", "degree 2", "finite elements", "manifold")
 
     def scene(self) -> str:
         """Return the bar, pulled by the slip that 50 kN have."""
         return pulled('stiffness = "10 GPa/m"', 4.474853334e-4, 1.0)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the force, and what the bond hands to the wall."""
         force = float(run.history["bars:bar:force"][-1])
         wall = float(-run.history["reaction:wall:x"][-1])
         reason = "order 2 in pieces of 0.027 over beta"
@@ -78,21 +75,14 @@ class ShearLag(SceneCase):
 class PullOut(SceneCase):
     """A bond that softens fails zone by zone: the peak is less than all of its strength at once."""
 
-    name: ClassVar[str] = "BO2"
-    title: ClassVar[str] = "Pull-out with a bilinear bond"
-    source: ClassVar[str] = "Yuan, Teng, Seracino, Wu and Yao (2004), two zones in closed form"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "manifold")
+    name = "BO2"
+    title = "Pull-out with a bilinear bond"
+    source = "Yuan, Teng, Seracino, Wu and Yao (2004), two zones in closed form"
+    formulations = ("dda", "manifold")
     length: float = 0.3
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return a bar that is pulled out, and one whose loaded slip snaps back."""
-        return [cls(), cls(1.0)]
-
-    @property
-    def variant(self) -> str:
-        """The length of the bond."""
-        return f"{self.length:g} m"
+    # A bar that is pulled out, and one whose loaded slip snaps back.
+    parameters: ClassVar = {"length": (0.3, 1.0)}
+    label = "{0.length:g} m"
 
     def scene(self) -> str:
         """Return the bar pulled until its force falls."""
@@ -101,7 +91,6 @@ class PullOut(SceneCase):
         return pulled(bond, way, increment, self.length)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the peak, and where the loaded slip snaps back."""
         force = run.history["bars:bar:force"]
         reason = "increments of 0.01 mm, pieces of a fortieth"
         if self.length < 1:

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import atan, cos, pi, radians, sin, sqrt
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -26,13 +26,13 @@ SIZE, REASON = 0.03, "the plate is ten cracks wide (0.6 %); cells of a seventh o
 class PushedCrack(SceneCase):
     """A crack in a wide plate, ``inclined`` from the vertical load (deg)."""
 
-    name: ClassVar[str] = "GR16"
-    title: ClassVar[str] = "Intensities of cracks under water, pressed shut, and heated"
-    source: ClassVar[str] = (
+    name = "GR16"
+    title = "Intensities of cracks under water, pressed shut, and heated"
+    source = (
         "Closed forms in an infinite plane: p sqrt(pi a); (tau - mu sigma) sqrt(pi a) where faces "
         "slide; E alpha grad T a sqrt(pi a) / (4 (1 - nu)) of heat across a tight crack (Sih 1962)"
     )
-    formulations: ClassVar[tuple[str, ...]] = ("dda",)  # the scene's own
+    formulations = ("dda",)
     acts: str = "water"
     inclined: float = 90.0
     friction: float = 0.3
@@ -109,7 +109,6 @@ class PushedCrack(SceneCase):
         return LOAD * root, 0.0
 
     def measure(self, run: "Run") -> Checks:
-        """Compare both, over what tension would have or heat has."""
         scale = max(map(abs, (*self.expected, LOAD * sqrt(pi * A) * (self.acts != "heat"))))
         shut = self.acts == "pressed shut"
         tolerance = 0.035 if shut else 0.02

@@ -41,15 +41,14 @@ def spinning(
     )
 
 
-@dataclass(frozen=True)
 class Projectile(SceneCase):
     """A thrown, spinning square flies a parabola, turns evenly, and feels nothing."""
 
-    name: ClassVar[str] = "B13"
-    title: ClassVar[str] = "Projectile"
-    source: ClassVar[str] = "x = v t + g t^2 / 2, theta = omega t"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "rigid", "degree 2", "newmark", *MESHES)
-    duration: ClassVar[float] = 1.0
+    name = "B13"
+    title = "Projectile"
+    source = "x = v t + g t^2 / 2, theta = omega t"
+    formulations = ("dda", "rigid", "degree 2", "newmark", *MESHES)
+    duration = 1.0
 
     def scene(self) -> str:
         """Return a square with v = (3, 4) m/s and omega = 2 rad/s under gravity."""
@@ -57,7 +56,6 @@ class Projectile(SceneCase):
         return spinning(self.duration, 0.01, velocity, ["[gravity]\n"])
 
     def measure(self, run: "Run") -> Checks:
-        """Compare place, angle, velocity and strain at the end."""
         x, y = last_way(run, "middle")
         vx, vy, omega = rates(run)[0]
         strain = np.abs(run.stepper.model.mean_strain(run.state.deformation)).max()
@@ -78,23 +76,19 @@ class Projectile(SceneCase):
 class Spin(SceneCase):
     """A spun rectangle keeps its area and its rate; its stress is centrifugal and turns along."""
 
-    name: ClassVar[str] = "B14 spin"
-    title: ClassVar[str] = "Free rectangle spun by one turn or by a quarter"
-    source: ClassVar[str] = "Mean stress rho omega^2 a^2 / 12 along a side of length a"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "degree 2", *MESHES)
+    name = "B14 spin"
+    title = "Free rectangle spun by one turn or by a quarter"
+    source = "Mean stress rho omega^2 a^2 / 12 along a side of length a"
+    formulations = ("dda", "degree 2", *MESHES)
     steps: int = 1000
     turns: float = 1.0
     length: float = 1.0
+    label = "{0.steps} steps, {0.turns:g} turns"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return a square through one turn and a 2 m x 1 m rectangle through a quarter."""
         return [cls(100), cls(1000), cls(1000, 0.25, 2.0)]
-
-    @property
-    def variant(self) -> str:
-        """The number of steps and the turn."""
-        return f"{self.steps} steps, {self.turns:g} turns"
 
     def scene(self) -> str:
         """Return a body that turns by so much in 1 s."""
@@ -103,7 +97,6 @@ class Spin(SceneCase):
         return spinning(1.0, 1.0 / self.steps, velocity, shape=shape)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare area, rate and mean stress; after a quarter the long side stands upright."""
         omega = self.turns * TURN
         along, across = (DENSITY * omega**2 * a**2 / 12 for a in (self.length, 1.0))
         upright = self.turns == 0.25
@@ -134,46 +127,36 @@ class Spin(SceneCase):
 class LinearSpin(SceneCase):
     """The classical update makes a turning square grow by ``1 + r0^2`` a step."""
 
-    name: ClassVar[str] = "B14 classical"
-    title: ClassVar[str] = "Growth of a square under the classical update"
-    source: ClassVar[str] = "(1 + (2 pi / n)^2)^n (MacLaughlin and Sitar 1996)"
-    formulations: ClassVar[tuple[str, ...]] = ("classical",)
+    name = "B14 classical"
+    title = "Growth of a square under the classical update"
+    source = "(1 + (2 pi / n)^2)^n (MacLaughlin and Sitar 1996)"
+    formulations = ("classical",)
     steps: int = 100
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return the tabulated numbers of steps."""
-        return [cls(100), cls(1000)]
-
-    @property
-    def variant(self) -> str:
-        """The number of steps."""
-        return f"{self.steps} steps"
+    parameters: ClassVar = {"steps": (100, 1000)}
+    label = "{0.steps} steps"
 
     def scene(self) -> str:
         """Return a square turning once in 1 s."""
         return spinning(1.0, 1.0 / self.steps, f"angular_velocity = {TURN!r}")
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the area with the formula and the printed digits."""
         printed = {100: 1.48291085, 1000: 1.04026724}[self.steps]
         return {
             "area (m2)": Check(float(current_areas(run).sum()), printed, 1e-8, "printed digits")
         }
 
 
-@dataclass(frozen=True)
 class TurnedStress(SceneCase):
     """A uniaxial initial stress turns with the material by 90 degrees.
 
     The block is rigid: an elastic one, free, would release the stress.
     """
 
-    name: ClassVar[str] = "B14 stress"
-    title: ClassVar[str] = "Uniaxial stress turned by 90 degrees"
-    source: ClassVar[str] = "R sigma R^T: sxx = 1 becomes syy = 1"
-    formulations: ClassVar[tuple[str, ...]] = ("rigid",)
-    stress: ClassVar[float] = 1e6
+    name = "B14 stress"
+    title = "Uniaxial stress turned by 90 degrees"
+    source = "R sigma R^T: sxx = 1 becomes syy = 1"
+    formulations = ("rigid",)
+    stress = 1e6
 
     def scene(self) -> str:
         """Return a square that carries an initial stress and turns by a quarter."""
@@ -181,7 +164,6 @@ class TurnedStress(SceneCase):
         return spinning(1.0, 0.01, f"angular_velocity = {TURN / 4!r}", [initial])
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the stress at the end in global axes."""
         sxx, syy, sxy = run.stress[0]
         reason = "the benchmark's tolerance"
         return {

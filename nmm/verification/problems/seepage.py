@@ -1,9 +1,8 @@
 """Water that seeps through blocks, and what its pressure does to them."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -51,21 +50,14 @@ def pressure(run: "Run", points: Floats) -> Floats:
 class RisingWater(SceneCase):
     """A column of soil in which water rises: at the critical gradient nothing presses any more."""
 
-    name: ClassVar[str] = "WA9"
-    title: ClassVar[str] = "Rising water takes the weight of soil"
-    source: ClassVar[str] = "Terzaghi: s' = (i w - (s - w)) (H - y), w = 9.81, s = 20 kN/m3"
-    formulations: ClassVar[tuple[str, ...]] = ("degree 2", "manifold", "quads", "splines")
+    name = "WA9"
+    title = "Rising water takes the weight of soil"
+    source = "Terzaghi: s' = (i w - (s - w)) (H - y), w = 9.81, s = 20 kN/m3"
+    formulations = ("degree 2", "manifold", "quads", "splines")
     gradient: float = 0.0
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return still water, half of the critical gradient, and it itself."""
-        return [cls(0.0), cls(0.5), cls(1.0)]
-
-    @property
-    def variant(self) -> str:
-        """The gradient, in that at which the soil boils."""
-        return f"{self.gradient:g} of the critical gradient"
+    # Still water, half of the critical gradient, and it itself.
+    parameters: ClassVar = {"gradient": (0.0, 0.5, 1.0)}
+    label = "{0.gradient:g} of the critical gradient"
 
     def scene(self) -> str:
         """Return a column 10 m high; water stands at its top, and higher below it."""
@@ -84,7 +76,6 @@ class RisingWater(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare pressure, effective stress and flow."""
         y = np.array([1.0, 4.7, 9.3])
         points = np.stack([np.full(3, 0.9), y], axis=1)
         pores = pressure(run, points)
@@ -110,7 +101,7 @@ class PorousCylinder(SceneCase):
     name, title = "WA10", "Seepage through a thick cylinder"
     source = "Lamé, and Timoshenko's heated cylinder with E alpha T / (1 - 2 nu) = b p"
     formulations = ("manifold", "manifold degree 2", "quads degree 2")
-    chords: ClassVar[int] = 32
+    chords = 32
 
     def scene(self) -> str:
         """Return a quarter between 1 MPa inside and none outside, radii 1 m and 2 m."""
@@ -144,7 +135,6 @@ class PorousCylinder(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare pressure, flow, total stresses and the widening."""
         a = np.array([np.cos(0.7), np.sin(0.7)])
         radii = np.array([1.05, 1.5, 1.95])
         found = fields(run, np.outer(radii, a)).stress
@@ -190,7 +180,6 @@ class SeepingDam(SceneCase):
         return with_cover(super().formulation(scene, name), size=1.0)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare discharge, balance, and a pressure near the base."""
         flow, out = (run.history[f"seepage:taken:{name}"][-1] for name in ("up", "down"))
         exact = 1e-6 * (10.0**2 - 2.0**2) / 16
         why = "exact whatever the cells; the level on the face may cut one"
@@ -241,7 +230,6 @@ class Layers(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare flow, and the balance."""
         flow = run.history["seepage:taken:in"][-1]
         out = run.history["seepage:taken:out"][-1]
         return {

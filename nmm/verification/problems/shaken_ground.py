@@ -25,13 +25,9 @@ class LayerOnRock(SceneCase):
     name, title = "BM2", "Soil on rock under a pulse that comes from below"
     source = "d'Alembert: 2 T R^n v(t - (2 n + 1) H / Vs), T = 1.65517241, R = -0.65517241"
     formulations: ClassVar[tuple[str, ...]] = (
-        "finite elements",
-        "bilinear quads",
-        "manifold",
-        "quads",
-        "splines",
+        *("finite elements", "bilinear quads", "manifold", "quads", "splines"),
     )
-    width: ClassVar[float] = 3.0
+    width = 3.0
     sides: ClassVar[tuple[str, ...]] = (
         '[[supports]]\nname = "level"\nblock = "soil"\nfix = ["y"]\n',
     )
@@ -62,7 +58,6 @@ class LayerOnRock(SceneCase):
         return with_cover(super().formulation(scene, name), size=3.0 if degree else 1.5)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the velocity of the surface with the first two peaks."""
         speed, time = surface(run, "left")
         reason = "dispersion of the mesh: 2 % of peaks at twenty cells a wave"
         first = time[np.argmax(speed)]
@@ -77,9 +72,9 @@ class LevelGround(LayerOnRock):
     """The same ground 60 m wide between free fields: every line moves as the column."""
 
     name, title = "BM4", "Level ground between free fields"
-    formulations: ClassVar[tuple[str, ...]] = ("bilinear quads", "quads")
-    width: ClassVar[float] = 60.0
-    sides: ClassVar[tuple[str, ...]] = tuple(
+    formulations = ("bilinear quads", "quads")
+    width = 60.0
+    sides = tuple(
         f'[[free_fields]]\nname = "{name}"\nbase = "base"\nsegment = [[{x}, 0], [{x}, 30]]\n'
         for name, x in (("left", 0.0), ("right", 60.0))
     )
@@ -90,7 +85,6 @@ class LevelGround(LayerOnRock):
         return with_cover(super().formulation(scene, name), size=6.0 if degree else 2.5)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the side and the middle, and how little the ground rises."""
         found = super().measure(run)
         middle, _ = surface(run, "middle")
         side, _ = surface(run, "left")

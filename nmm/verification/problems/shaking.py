@@ -42,25 +42,15 @@ class Swing(SceneCase):
     Its frequency is ``w^2 = 3 G / (rho h^2)``.
     """
 
-    name: ClassVar[str] = "VI4"
-    title: ClassVar[str] = "Free vibration under Rayleigh's and local damping"
-    source: ClassVar[str] = (
-        "logarithmic decrement of 5 %; local damping: sqrt((1 - a) / (1 + a)) a half cycle"
-    )
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "bilinear quads")
+    name = "VI4"
+    title = "Free vibration under Rayleigh's and local damping"
+    source = "logarithmic decrement of 5 %; local damping: sqrt((1 - a) / (1 + a)) a half cycle"
+    formulations = ("dda", "bilinear quads")
     damping: str = "rayleigh"
-    shear: ClassVar[float] = 3e6
-    omega: ClassVar[float] = float(np.sqrt(3 * 3e6 / 1000.0))
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return both kinds of damping, local damping twice."""
-        return [cls("rayleigh"), cls("local 0.1"), cls("local 0.7")]
-
-    @property
-    def variant(self) -> str:
-        """The kind of damping."""
-        return self.damping
+    shear = 3e6
+    omega = float(np.sqrt(3 * 3e6 / 1000.0))
+    parameters: ClassVar = {"damping": ("rayleigh", "local 0.1", "local 0.7")}
+    label = "{0.damping}"
 
     @property
     def period(self) -> float:
@@ -94,7 +84,6 @@ class Swing(SceneCase):
         return _one_cell(super().formulation(scene, name))
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the amplitudes of two extremes that follow each other."""
         swing = way(run, "top")[:, 0] * self.shear / 1e3 - 1
         turning = (swing[1:-1] - swing[:-2]) * (swing[2:] - swing[1:-1]) < 0
         peaks = np.abs(swing[1:-1][turning])
@@ -115,26 +104,22 @@ class Swing(SceneCase):
 class ShakenMass(SceneCase):
     """The same square on a base that follows a record: its top is 1.5 times the oscillator."""
 
-    name: ClassVar[str] = "BM1"
-    title: ClassVar[str] = "One mass on a spring under a record"
-    source: ClassVar[str] = "exact for piecewise linear records (Nigam and Jennings 1969)"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "bilinear quads")
+    name = "BM1"
+    title = "One mass on a spring under a record"
+    source = "exact for piecewise linear records (Nigam and Jennings 1969)"
+    formulations = ("dda", "bilinear quads")
     period: float = 0.5
     ratio: float = 0.05
     exact: ClassVar[dict[float, tuple[float, float, float]]] = {
         0.5: (0.08199225, 0.0756450992, 0.0482207489),
         0.3: (0.02778873, 0.0113379287, 0.0186646556),
     }
+    label = "T {0.period}, {0.ratio}"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return a damped and an undamped oscillator."""
         return [cls(0.5, 0.05), cls(0.3, 0.0)]
-
-    @property
-    def variant(self) -> str:
-        """Period and ratio of damping."""
-        return f"T {self.period}, {self.ratio}"
 
     def scene(self) -> str:
         """Return the square with its base shaken."""
@@ -159,7 +144,6 @@ class ShakenMass(SceneCase):
         return _one_cell(super().formulation(scene, name))
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the motion against the base."""
         moved = (way(run, "top") - way(run, "base"))[:, 0] / 1.5
         time, (largest, first, last) = run.history["time"], self.exact[self.period]
         # The trapezoidal rule makes the period longer by (w dt)^2 / 12, springs hold the base.
@@ -181,24 +165,20 @@ class ShakenMass(SceneCase):
 class ShakenSlope(SceneCase):
     """A block that a record makes slide down a slope, one way."""
 
-    name: ClassVar[str] = "BM5"
-    title: ClassVar[str] = "Block on a slope under a record"
-    source: ClassVar[str] = "equation of motion, events and steps of 2e-6 s (Newmark 1965)"
-    formulations: ClassVar[tuple[str, ...]] = ("dda",)
+    name = "BM5"
+    title = "Block on a slope under a record"
+    source = "equation of motion, events and steps of 2e-6 s (Newmark 1965)"
+    formulations = ("dda",)
     slope: float = 20.0
     friction: float = 30.0
     scale: float = 2.0
     slides: float = 0.2291134009
+    label = "{0.slope:g}, {0.friction:g}, {0.scale:g}"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return a strong shaking on a rough slope, and a weaker one on a smoother."""
         return [cls(), cls(15.0, 18.0, 1.0, 0.1633430180)]
-
-    @property
-    def variant(self) -> str:
-        """Slope, friction and scale of the record."""
-        return f"{self.slope:g}, {self.friction:g}, {self.scale:g}"
 
     @property
     def slow(self) -> bool:
@@ -224,7 +204,6 @@ class ShakenSlope(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the way of the block down the slope."""
         along = np.array([-np.cos(np.radians(self.slope)), -np.sin(np.radians(self.slope))])
         slid = (way(run, "stone") - way(run, "slope"))[-1] @ along
         reason = "contact springs give way by their slip before friction is reached"

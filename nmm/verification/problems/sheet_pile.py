@@ -25,21 +25,13 @@ class SheetPile(SceneCase):
     times as long as deep, which changes the flow by less than 1e-6.
     """
 
-    name: ClassVar[str] = "WA16"
-    title: ClassVar[str] = "Seepage under a sheet pile"
-    source: ClassVar[str] = "conformal map: q = k h K'(m) / 2 K(m), m = sin(pi s / 2 T)"
-    formulations: ClassVar[tuple[str, ...]] = ("quads", "manifold")
+    name = "WA16"
+    title = "Seepage under a sheet pile"
+    source = "conformal map: q = k h K'(m) / 2 K(m), m = sin(pi s / 2 T)"
+    formulations = ("quads", "manifold")
     reach: float = 2.0
-
-    @classmethod
-    def variants(cls) -> "tuple[SheetPile, ...]":
-        """Walls through a quarter, a half and three quarters of the layer."""
-        return (cls(1.0), cls(2.0), cls(3.0))
-
-    @property
-    def variant(self) -> str:
-        """How far down the wall reaches."""
-        return f"{self.reach:g} m deep"
+    parameters: ClassVar = {"reach": (1.0, 2.0, 3.0)}
+    label = "{0.reach:g} m deep"
 
     def scene(self) -> str:
         """Return the layer, which is held, with water on both sides of the wall."""
@@ -68,7 +60,6 @@ class SheetPile(SceneCase):
         return found.model_copy(update={"cover": cover})
 
     def measure(self, run: "Run") -> Checks:
-        """Compare what comes in, and whether all of it leaves."""
         from scipy.special import ellipk
 
         m = float(np.sin(np.pi * self.reach / (2 * DEPTH)) ** 2)

@@ -1,7 +1,6 @@
 """A pulse of pressure that comes back as tension, and what it breaks off a bar."""
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,7 +14,6 @@ if TYPE_CHECKING:
     from nmm.stepping.run import Run
 
 
-@dataclass(frozen=True)
 class SpalledBar(SceneCase):
     """A bar of one body is struck at its left end for 1 s; it splits where its tension is largest.
 
@@ -23,15 +21,13 @@ class SpalledBar(SceneCase):
     it: there alone the bar is stretched first, at once beyond its strength.
     """
 
-    name: ClassVar[str] = "SP3"
-    title: ClassVar[str] = "A pulse that comes back from a free end breaks off half its length"
-    source: ClassVar[str] = (
-        "d'Alembert: c tau / 2 from the end, which flies off with 2 s0 / (rho c)"
-    )
-    formulations: ClassVar[tuple[str, ...]] = ("bilinear quads", "finite elements")
-    long: ClassVar[float] = 4.0
-    high: ClassVar[float] = 0.1
-    pressure: ClassVar[float] = 2e-3
+    name = "SP3"
+    title = "A pulse that comes back from a free end breaks off half its length"
+    source = "d'Alembert: c tau / 2 from the end, which flies off with 2 s0 / (rho c)"
+    formulations = ("bilinear quads", "finite elements")
+    long = 4.0
+    high = 0.1
+    pressure = 2e-3
 
     def scene(self) -> str:
         """Return the bar with E = rho = 1, free but for its load."""

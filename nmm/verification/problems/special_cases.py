@@ -1,8 +1,7 @@
 """What manifolds are the same as: finite elements, blocks of DDA; polynomials they hold."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -47,17 +46,15 @@ def apart(ours: Any, theirs: Any) -> float:
     return float(abs(ours - theirs).max() / abs(theirs).max())
 
 
-@dataclass(frozen=True)
 class FiniteElements(Case):
     """Constant covers on a mesh that follows the body are finite elements, entry by entry."""
 
-    name: ClassVar[str] = "A0a"
-    title: ClassVar[str] = "Constant covers are finite elements"
-    source: ClassVar[str] = "Matrices of scikit-fem: linear triangles, bilinear rectangles"
-    formulations: ClassVar[tuple[str, ...]] = ("finite elements", "bilinear quads")
+    name = "A0a"
+    title = "Constant covers are finite elements"
+    source = "Matrices of scikit-fem: linear triangles, bilinear rectangles"
+    formulations = ("finite elements", "bilinear quads")
 
     def checks(self, formulation: str) -> Checks:
-        """Compare stiffness, mass and load."""
         import skfem
         from skfem.models.elasticity import linear_elasticity
 
@@ -84,23 +81,14 @@ class FiniteElements(Case):
 class BlockBasis(Case):
     """One cover a block in the basis (u0, v0, r0, ex, ey, gxy) is DDA: Shi's own matrices."""
 
-    name: ClassVar[str] = "A0b"
-    title: ClassVar[str] = "One cover a block is DDA"
-    source: ClassVar[str] = "Shi (1988): stiffness A D, mass of S, Sxx, Syy, Sxy in closed form"
+    name = "A0b"
+    title = "One cover a block is DDA"
+    source = "Shi (1988): stiffness A D, mass of S, Sxx, Syy, Sxy in closed form"
     shape: str = "rectangle"
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return a rectangle of 2 x 1 and a triangle with legs of 3 and 2."""
-        return [cls("rectangle"), cls("triangle")]
-
-    @property
-    def variant(self) -> str:
-        """The shape."""
-        return self.shape
+    parameters: ClassVar = {"shape": ("rectangle", "triangle")}
+    label = "{0.shape}"
 
     def checks(self, formulation: str) -> Checks:
-        """Compare both matrices with density 2, thickness 0.5."""
         corners, moments = {
             "rectangle": ([[3, 1], [5, 1], [5, 2], [3, 2]], (2.0, 8 / 12, 2 / 12, 0.0)),
             # a^3 b / 36, a b^3 / 36, -a^2 b^2 / 72.
@@ -143,21 +131,13 @@ class Reproduction(Case):
     They are fitted at points of a cut mesh; what is left over is the error.
     """
 
-    name: ClassVar[str] = "A0c"
-    title: ClassVar[str] = "Polynomials that covers hold"
-    source: ClassVar[str] = "Hats hold x times what the covers hold; counted by degree"
-    formulations: ClassVar[tuple[str, ...]] = ("triangles", "quads", "distorted quads")
+    name = "A0c"
+    title = "Polynomials that covers hold"
+    source = "Hats hold x times what the covers hold; counted by degree"
+    formulations = ("triangles", "quads", "distorted quads")
     degree: int = 1
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return degrees 0 to 3."""
-        return [cls(degree) for degree in range(4)]
-
-    @property
-    def variant(self) -> str:
-        """The degree of the covers."""
-        return f"degree {self.degree}"
+    parameters: ClassVar = {"degree": range(4)}
+    label = "degree {0.degree}"
 
     @property
     def slow(self) -> bool:
@@ -204,20 +184,18 @@ def residue(manifold: Manifold, degree: int) -> float:
     return float(np.abs(matrix * scale @ fit - targets).max())
 
 
-@dataclass(frozen=True)
 class Bound(Case):
     """Linear covers on triangles are a part of quadratic finite elements on the same mesh.
 
     So a body held without give may never yield more to its load.
     """
 
-    name: ClassVar[str] = "A0d"
-    title: ClassVar[str] = "Compliance below that of quadratic finite elements"
-    source: ClassVar[str] = "Quadratic triangles of scikit-fem on the same mesh"
-    formulations: ClassVar[tuple[str, ...]] = ("manifold",)
+    name = "A0d"
+    title = "Compliance below that of quadratic finite elements"
+    source = "Quadratic triangles of scikit-fem on the same mesh"
+    formulations = ("manifold",)
 
     def checks(self, formulation: str) -> Checks:
-        """Compare the work of a body force on a square held at its left side."""
         import skfem
 
         mesh = skfem.MeshTri.init_tensor(np.linspace(0, 1, 5), np.linspace(0, 1, 5))

@@ -11,8 +11,6 @@ from nmm.verification.base import Check, Checks, SceneCase
 from nmm.verification.formulations import with_cover
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from nmm.formulation import Formulation
     from nmm.scene import Scene
     from nmm.stepping.run import Run
@@ -59,17 +57,13 @@ class CrushedColumn(SceneCase):
     """A column under a growing pressure, in tension or in compression, on a smooth foot."""
 
     tension: bool = True
-    name: ClassVar[str] = "C4 splitting"
-    title: ClassVar[str] = "A column splits at its strength, along the plane of the envelope"
-    source: ClassVar[str] = "Mohr and Coulomb with a tension cut-off; planes at 45 - phi / 2"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "finite elements", "bilinear quads")
-    width: ClassVar[float] = 0.1
-    height: ClassVar[float] = 0.25
-
-    @classmethod
-    def variants(cls) -> "Sequence[CrushedColumn]":
-        """Tension and compression."""
-        return [cls(True), cls(False)]
+    name = "C4 splitting"
+    title = "A column splits at its strength, along the plane of the envelope"
+    source = "Mohr and Coulomb with a tension cut-off; planes at 45 - phi / 2"
+    formulations = ("dda", "finite elements", "bilinear quads")
+    width = 0.1
+    height = 0.25
+    parameters: ClassVar = {"tension": (True, False)}
 
     @property
     def variant(self) -> str:
@@ -103,7 +97,6 @@ class CrushedColumn(SceneCase):
         return with_cover(found, size=self.width / 3)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the load of the first split and its planes."""
         load = first_split(run, "load_factor")
         if self.tension:
             found = apart(inner_faces(run), 0.0)
@@ -135,20 +128,12 @@ class StressedBlock(SceneCase):
     """A block born with an even stress splits in the first instant, however it lies."""
 
     turn: float = 0.0
-    name: ClassVar[str] = "SP6"
-    title: ClassVar[str] = "The plane along which an even stress splits a block"
-    source: ClassVar[str] = "(2, -1, 1.5) MPa: s1 = 2.6213203436 at 22.5 degrees"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "degree 2", "bilinear quads")
-
-    @classmethod
-    def variants(cls) -> "Sequence[StressedBlock]":
-        """Blocks turned with their stress."""
-        return [cls(angle) for angle in (0.0, 20.0, 77.0)]
-
-    @property
-    def variant(self) -> str:
-        """See `Case.variant`."""
-        return f"turned by {self.turn:g} degrees"
+    name = "SP6"
+    title = "The plane along which an even stress splits a block"
+    source = "(2, -1, 1.5) MPa: s1 = 2.6213203436 at 22.5 degrees"
+    formulations = ("dda", "degree 2", "bilinear quads")
+    parameters: ClassVar = {"turn": (0.0, 20.0, 77.0)}
+    label = "turned by {0.turn:g} degrees"
 
     def scene(self) -> str:
         """Return one step of a nanosecond, in which nothing relaxes."""
@@ -171,7 +156,6 @@ class StressedBlock(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the plane, and count the pieces."""
         off = apart(inner_faces(run), 112.5 + self.turn)
         return {
             "plane off (deg)": Check(1 + off, 1.0, 1e-6, "a step of 1 ns strains by 1e-10"),

@@ -26,23 +26,19 @@ def _head(title: str, more: str = "") -> str:
 class Stack(SceneCase):
     """Every interface of a stack carries the weight above it."""
 
-    name: ClassVar[str] = "B12 stack"
-    title: ClassVar[str] = "Stack of five blocks"
-    source: ClassVar[str] = "Balance of weights"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "rigid", "degree 2", *EXACT, *MESHES)
+    name = "B12 stack"
+    title = "Stack of five blocks"
+    source = "Balance of weights"
+    formulations = ("dda", "rigid", "degree 2", *EXACT, *MESHES)
     shape: str = "tapered"
     heights: tuple[float, ...] = (1.0, 0.5, 2.0, 0.25, 1.0)
     widths: tuple[float, ...] = (2.0, 1.5, 1.0, 0.75, 0.5)
+    label = "{0.shape}"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return blocks that grow narrower upwards, and equal ones, corner on corner."""
         return [cls(), cls("equal", (1.0,) * 5, (1.0,) * 5)]
-
-    @property
-    def variant(self) -> str:
-        """The shape."""
-        return self.shape
 
     def scene(self) -> str:
         """Return a floor with the blocks on it, all on one axis."""
@@ -60,7 +56,6 @@ class Stack(SceneCase):
         return text.scene(_head("Stack"), tables)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the normal and shear force of every interface."""
         weight = DENSITY * G * np.array(self.heights) * np.array(self.widths)
         level = np.concatenate([[0.0], np.cumsum(self.heights)])
         checks = {"all in equilibrium": holds(converged(run), "statics ends at load factor 1")}
@@ -73,16 +68,15 @@ class Stack(SceneCase):
         return checks
 
 
-@dataclass(frozen=True)
 class Column(SceneCase):
     """A column under its own weight: exact where the approximation is quadratic."""
 
-    name: ClassVar[str] = "B12 column"
-    title: ClassVar[str] = "Column of one block under its own weight"
-    source: ClassVar[str] = "u(y) = -rho g (H y - y^2 / 2) / E for nu = 0"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "degree 2", "degree 3", "manifold")
-    height: ClassVar[float] = 10.0
-    modulus: ClassVar[float] = 1e8
+    name = "B12 column"
+    title = "Column of one block under its own weight"
+    source = "u(y) = -rho g (H y - y^2 / 2) / E for nu = 0"
+    formulations = ("dda", "degree 2", "degree 3", "manifold")
+    height = 10.0
+    modulus = 1e8
 
     def checks(self, formulation: str) -> Checks:
         """Run and measure; a linear approximation has the top alone exact."""
@@ -104,7 +98,6 @@ class Column(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare settlements less that of the support's springs."""
         base, middle, top = (last_way(run, f"y{y}")[1] for y in (0, 5, 10))
         unit = DENSITY * G * self.height**2 / self.modulus
         weight = DENSITY * G * self.height
@@ -120,22 +113,15 @@ class Column(SceneCase):
 class Overhang(SceneCase):
     """A pile of ``n`` blocks reaches over a table by half the harmonic sum, and no further."""
 
-    name: ClassVar[str] = "B12 overhang"
-    title: ClassVar[str] = "Harmonic overhang of piled blocks"
-    source: ClassVar[str] = "Centre of gravity over the edge below: 1/2 (1 + 1/2 + ... + 1/n)"
+    name = "B12 overhang"
+    title = "Harmonic overhang of piled blocks"
+    source = "Centre of gravity over the edge below: 1/2 (1 + 1/2 + ... + 1/n)"
     number: int = 1
     share: float = 0.99
-    height: ClassVar[float] = 0.25
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return one to four blocks, 1 % below and above the limit."""
-        return [cls(number, share) for number in (1, 2, 3, 4) for share in (0.99, 1.01)]
-
-    @property
-    def variant(self) -> str:
-        """The number of blocks and the share of the overhang."""
-        return f"{self.number} blocks, {self.share}"
+    height = 0.25
+    # One to four blocks, 1 % below and above the limit.
+    parameters: ClassVar = {"number": (1, 2, 3, 4), "share": (0.99, 1.01)}
+    label = "{0.number} blocks, {0.share}"
 
     def scene(self) -> str:
         """Return a table that ends at x = 0 and the pile on it."""

@@ -22,24 +22,16 @@ ASKED = (0.1, 0.03, 0.01)
 class ErrorAsked(Case):
     """Error of an oscillator over its amplitude, a cycle, for three errors that were asked for."""
 
-    name: ClassVar[str] = "B9 error"
-    title: ClassVar[str] = "Steps chosen by an error"
-    source: ClassVar[str] = "u = (v / omega) sin(omega t)"
-    formulations: ClassVar[tuple[str, ...]] = ("rigid",)
+    name = "B9 error"
+    title = "Steps chosen by an error"
+    source = "u = (v / omega) sin(omega t)"
+    formulations = ("rigid",)
     integrator: str = "newmark"
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return integrators of order 2 and 1."""
-        return [cls("newmark"), cls("generalized_alpha"), cls("shi")]
-
-    @property
-    def variant(self) -> str:
-        """The integrator."""
-        return self.integrator
+    # Integrators of order 2 and 1.
+    parameters: ClassVar = {"integrator": ("newmark", "generalized_alpha", "shi")}
+    label = "{0.integrator}"
 
     def checks(self, formulation: str) -> Checks:
-        """Measure the slope of the error over what was asked for, and the smallest error."""
         found = [self._error(error) for error in ASKED]
         slope = float(np.polyfit(np.log(ASKED), np.log(found), 1)[0])
         first = "the first steps are short whatever is asked for, and steps grow by three at most"
@@ -75,21 +67,14 @@ from event to event by Dormand and Prince's method of order 8 to 1e-11.
 class StrainingBounce(SceneCase):
     """A block of one strain falls by half a metre on springs: how high it comes back."""
 
-    name: ClassVar[str] = "B7 error"
-    title: ClassVar[str] = "Rebound of a straining block in steps by an error"
-    source: ClassVar[str] = "m y'' = F - m g, m e'' / 12 = -E e - F / 2, F = k (e / 2 - y) >= 0"
+    name = "B7 error"
+    title = "Rebound of a straining block in steps by an error"
+    source = "m y'' = F - m g, m e'' / 12 = -E e - F / 2, F = k (e / 2 - y) >= 0"
     stiffness: float = 1e8
     error: float = 0.01
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return springs as stiff as the block and 20 times as stiff, under two errors."""
-        return [cls(one, error) for one in REBOUNDS for error in (0.1, 0.01)]
-
-    @property
-    def variant(self) -> str:
-        """Springs and error."""
-        return f"{self.stiffness:g} N/m, error {self.error:g}"
+    # Springs as stiff as the block and 20 times as stiff, under two errors.
+    parameters: ClassVar = {"stiffness": REBOUNDS, "error": (0.1, 0.01)}
+    label = "{0.stiffness:g} N/m, error {0.error:g}"
 
     def scene(self) -> str:
         """Return the fall, the impact and the rebound."""
@@ -109,7 +94,6 @@ class StrainingBounce(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the height of the rebound."""
         way = run.history["monitor:middle:uy"]
         height = float(way[int(way.argmin()) :].max())
         reason = (
@@ -123,10 +107,10 @@ class StrainingBounce(SceneCase):
 class BarOnWall(SceneCase):
     """An elastic bar meets a wall with its end: it leaves as a wave has gone to and fro."""
 
-    name: ClassVar[str] = "B8 bar"
-    title: ClassVar[str] = "Elastic bar that meets a wall"
-    source: ClassVar[str] = "Saint-Venant: contact for 2 L / c, rebound at the speed of the impact"
-    formulations: ClassVar[tuple[str, ...]] = ("bilinear quads", "quads")
+    name = "B8 bar"
+    title = "Elastic bar that meets a wall"
+    source = "Saint-Venant: contact for 2 L / c, rebound at the speed of the impact"
+    formulations = ("bilinear quads", "quads")
     rule: str = "step = 0.1"
     springs: str = "normal_penalty = 10.0"
 
@@ -163,7 +147,6 @@ class BarOnWall(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the speed after the impact, and how long it lasted."""
         time, gap = run.history["time"], run.history["monitor:near:ux"] + 2e-3
         within = time[gap < 2e-4]
         waves = "waves shorter than a few cells of half a metre stay behind as vibration"

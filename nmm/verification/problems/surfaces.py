@@ -1,8 +1,7 @@
 """Pressure between surfaces in closed form: Hertz's cylinder and the flat punch."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -28,11 +27,7 @@ class Pressure(SceneCase):
         "quads",
     )
     enforcement: str = "penalty"
-
-    @property
-    def variant(self) -> str:
-        """The enforcement."""
-        return self.enforcement
+    label = "{0.enforcement}"
 
     def pressures(self, run: "Run") -> tuple[Floats, Floats, Floats]:
         """Return places, forces and lengths of the contacts that press, from left to right."""
@@ -43,21 +38,20 @@ class Pressure(SceneCase):
         return place[order], force[order], frame.contact_length[order]
 
 
-@dataclass(frozen=True)
 class Hertz(Pressure):
     """A cylinder is pressed on a rigid plane."""
 
-    name: ClassVar[str] = "B21"
-    title: ClassVar[str] = "Hertz: cylinder of R = 0.05 m on a rigid plane, 1e6 N/m"
-    source: ClassVar[str] = "b^2 = 4 P R (1 - nu^2) / (pi E), p = 2 P sqrt(1 - x^2 / b^2) / (pi b)"
-    radius: ClassVar[float] = 0.05
-    modulus: ClassVar[float] = 200e9
-    load: ClassVar[float] = 1e6
-    half_width: ClassVar[float] = 5.38203e-4
-    peak: ClassVar[float] = 1.182863e9
-    contacts: ClassVar[int] = 15
-    worst: ClassVar[float] = 0.04
-    reason: ClassVar[str] = "the springs give way by 2 to 3.5 %"
+    name = "B21"
+    title = "Hertz: cylinder of R = 0.05 m on a rigid plane, 1e6 N/m"
+    source = "b^2 = 4 P R (1 - nu^2) / (pi E), p = 2 P sqrt(1 - x^2 / b^2) / (pi b)"
+    radius = 0.05
+    modulus = 200e9
+    load = 1e6
+    half_width = 5.38203e-4
+    peak = 1.182863e9
+    contacts = 15
+    worst = 0.04
+    reason = "the springs give way by 2 to 3.5 %"
 
     @property
     def step(self) -> float:
@@ -124,7 +118,6 @@ class Hertz(Pressure):
         }
 
 
-@dataclass(frozen=True)
 class ExactHertz(Hertz):
     """The same without penetration.
 
@@ -132,23 +125,18 @@ class ExactHertz(Hertz):
     by five times the peak. So faces of meshes are held apart in the mean.
     """
 
-    name: ClassVar[str] = "B21 exact"
-    formulations: ClassVar[tuple[str, ...]] = ("finite elements", "bilinear quads")
-    worst: ClassVar[float] = 0.03
-    reason: ClassVar[str] = "the benchmark's"
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return multipliers, rounds and the cone."""
-        return [cls("lagrange"), cls("augmented"), cls("cone")]
+    name = "B21 exact"
+    formulations = ("finite elements", "bilinear quads")
+    worst = 0.03
+    reason = "the benchmark's"
+    parameters: ClassVar = {"enforcement": ("lagrange", "augmented", "cone")}
 
 
-@dataclass(frozen=True)
 class LinearHertz(ExactHertz):
     """The same with covers of degree 1."""
 
-    name: ClassVar[str] = "B21 degree 1"
-    formulations: ClassVar[tuple[str, ...]] = ("manifold", "quads")
+    name = "B21 degree 1"
+    formulations = ("manifold", "quads")
 
     @property
     def slow(self) -> bool:
@@ -156,29 +144,23 @@ class LinearHertz(ExactHertz):
         return True
 
 
-@dataclass(frozen=True)
 class QuadraticHertz(LinearHertz):
     """The same with covers of degree 2."""
 
-    name: ClassVar[str] = "B21 degree 2"
-    formulations: ClassVar[tuple[str, ...]] = ("manifold degree 2", "quads degree 2")
-    contacts: ClassVar[int] = 8
-    reason: ClassVar[str] = "the benchmark's; half the contacts hold what is quadratic in a cell"
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return rounds."""
-        return [cls("augmented")]
+    name = "B21 degree 2"
+    formulations = ("manifold degree 2", "quads degree 2")
+    contacts = 8
+    reason = "the benchmark's; half the contacts hold what is quadratic in a cell"
+    parameters: ClassVar = {"enforcement": ("augmented",)}
 
 
-@dataclass(frozen=True)
 class Punch(Pressure):
     """A rigid block with a flat face is pressed on a body that is large beside it."""
 
-    name: ClassVar[str] = "B22"
-    title: ClassVar[str] = "Flat rigid punch of half width a on a half plane"
-    source: ClassVar[str] = "p = P / (pi sqrt(a^2 - x^2)): a third of P in |x| < a / 2"
-    extent: ClassVar[float] = 20.0
+    name = "B22"
+    title = "Flat rigid punch of half width a on a half plane"
+    source = "p = P / (pi sqrt(a^2 - x^2)): a third of P in |x| < a / 2"
+    extent = 20.0
 
     def scene(self) -> str:
         """Return the punch, 2 m wide, on a body 20 times as wide and deep as half of it."""
@@ -211,7 +193,6 @@ class Punch(Pressure):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the share of the force in the middle half of the face."""
         x, force, length = self.pressures(run)
         ends = x[0] - length[0] / 2 + np.concatenate([[0.0], np.cumsum(length)])
         sums = np.concatenate([[0.0], np.cumsum(force)])
@@ -221,30 +202,20 @@ class Punch(Pressure):
         return {"force in the middle half over all": Check(share, 1 / 3, 0.02, reason)}
 
 
-@dataclass(frozen=True)
 class ExactPunch(Punch):
     """The same without penetration."""
 
-    name: ClassVar[str] = "B22 exact"
+    name = "B22 exact"
     formulations: ClassVar[tuple[str, ...]] = ("finite elements", "manifold", "bilinear quads")
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return multipliers, rounds and the cone."""
-        return [cls("lagrange"), cls("augmented"), cls("cone")]
+    parameters: ClassVar = {"enforcement": ("lagrange", "augmented", "cone")}
 
 
-@dataclass(frozen=True)
 class FinePunch(ExactPunch):
     """The same with covers of degree 1 on quads."""
 
-    name: ClassVar[str] = "B22 fine"
-    formulations: ClassVar[tuple[str, ...]] = ("quads",)
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return rounds."""
-        return [cls("augmented")]
+    name = "B22 fine"
+    formulations = ("quads",)
+    parameters: ClassVar = {"enforcement": ("augmented",)}
 
     @property
     def slow(self) -> bool:

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -62,22 +62,18 @@ FREQUENCY = 1e3
 class SpringBlock(SceneCase):
     """A rigid block thrown against the spring of its support: Shi's exact numerical damping."""
 
-    name: ClassVar[str] = "B9 damping"
-    title: ClassVar[str] = "Numerical damping and period of one oscillator"
-    source: ClassVar[str] = "Eigenvalues of the step: rho = 1 / sqrt(1 + Omega^2 / 2) (Shi)"
-    formulations: ClassVar[tuple[str, ...]] = ("rigid",)
+    name = "B9 damping"
+    title = "Numerical damping and period of one oscillator"
+    source = "Eigenvalues of the step: rho = 1 / sqrt(1 + Omega^2 / 2) (Shi)"
+    formulations = ("rigid",)
     omega: float = 0.1
     integrator: str = "shi"
+    label = "{0.integrator}, Omega {0.omega}"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return the tabulated frequencies with Shi's rule, and Newmark's without damping."""
         return [*(cls(omega) for omega in SHI), cls(0.1, "newmark"), cls(1.0, "newmark")]
-
-    @property
-    def variant(self) -> str:
-        """Integrator and frequency times step."""
-        return f"{self.integrator}, Omega {self.omega}"
 
     def scene(self) -> str:
         """Return the oscillator for 40 steps."""
@@ -102,10 +98,10 @@ class SpringBlock(SceneCase):
 class IntegratorOrder(Case):
     """Error of the oscillator at a fixed time over three halvings of the step."""
 
-    name: ClassVar[str] = "B9 order"
-    title: ClassVar[str] = "Order of the time integrators"
-    source: ClassVar[str] = "u = (v / omega) sin(omega t)"
-    formulations: ClassVar[tuple[str, ...]] = ("rigid",)
+    name = "B9 order"
+    title = "Order of the time integrators"
+    source = "u = (v / omega) sin(omega t)"
+    formulations = ("rigid",)
     integrator: str = "shi"
     options: str = ""
     order: float = 1.0
@@ -126,7 +122,6 @@ class IntegratorOrder(Case):
         return f"{self.integrator} {self.options}".rstrip()
 
     def checks(self, formulation: str) -> Checks:
-        """Measure the slope of the error between 64 and 512 steps."""
         steps = np.array([64, 128, 256, 512])
         slope = -np.polyfit(np.log(steps), np.log([self._error(int(n)) for n in steps]), 1)[0]
         reason = "terms of the next order, a step of 1.3/64 over the first"
@@ -158,22 +153,18 @@ RADII = {
 class DampedSpring(SceneCase):
     """A block thrown against a spring loses by generalised alpha what its options ask for."""
 
-    name: ClassVar[str] = "IN1"
-    title: ClassVar[str] = "Spectral radii of generalised alpha"
-    source: ClassVar[str] = "Eigenvalues of the step of Chung and Hulbert (1993)"
-    formulations: ClassVar[tuple[str, ...]] = ("rigid",)
+    name = "IN1"
+    title = "Spectral radii of generalised alpha"
+    source = "Eigenvalues of the step of Chung and Hulbert (1993)"
+    formulations = ("rigid",)
     omega: float = 1.0
     rho_inf: float = 0.8
+    label = "Omega {0.omega:.4g}, radius {0.rho_inf:g} at infinity"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return radii at infinity at steps from a sixtieth to sixteen periods."""
         return [cls(omega, rho) for omega, known in RADII.items() for rho in known]
-
-    @property
-    def variant(self) -> str:
-        """Frequency times step, and the radius at infinity."""
-        return f"Omega {self.omega:.4g}, radius {self.rho_inf:g} at infinity"
 
     def scene(self) -> str:
         """Return the oscillator for 12 steps."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -23,14 +23,15 @@ STEP, DURATION = 1e-3, 0.1
 class BlockOnSlope(SceneCase):
     """A block of width b and height h on a slope, friction to either side of each limit."""
 
-    name: ClassVar[str] = "B6"
-    title: ClassVar[str] = "Modes of a block on a slope"
-    source: ClassVar[str] = "Balance of the block that turns about its toe, with and without slip"
-    formulations: ClassVar[tuple[str, ...]] = ("rigid",)
+    name = "B6"
+    title = "Modes of a block on a slope"
+    source = "Balance of the block that turns about its toe, with and without slip"
+    formulations = ("rigid",)
     slope: float = 30.0
     width: float = 0.25
     friction: float = 30.5
     mode: str = "topples"
+    label = "{0.slope:g} degrees, b/h {0.width:g}, phi {0.friction:g}: {0.mode}"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
@@ -41,11 +42,6 @@ class BlockOnSlope(SceneCase):
             found.append(cls(float(slope), width, round(phi + 0.5, 4), "topples"))
             found.append(cls(float(slope), width, round(phi - 0.5, 4), "slides and topples"))
         return found
-
-    @property
-    def variant(self) -> str:
-        """Slope, width over height, friction."""
-        return f"{self.slope:g} degrees, b/h {self.width:g}, phi {self.friction:g}: {self.mode}"
 
     def scene(self) -> str:
         """Return a block of 1 m height on a held base."""
@@ -63,7 +59,6 @@ class BlockOnSlope(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the slip of the toe and the turn at the end with those of a rigid block."""
         slip = float(last_way(run, "toe") @ down(self.slope))
         turn = float(run.state.frames.angle[1])
         started = "contacts settle under the sudden weight: rates of 3e-4 rad/s, 3e-4 m/s"

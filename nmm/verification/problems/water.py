@@ -1,8 +1,7 @@
 """Water that presses on dams, slopes and submerged blocks."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -26,16 +25,12 @@ def water(name: str, more: str) -> str:
 class Dam(SceneCase):
     """A gravity dam on its joint, dry below or under full linear uplift."""
 
-    name: ClassVar[str] = "WA1"
-    title: ClassVar[str] = "Dam on a joint under uplift"
-    source: ClassVar[str] = "Equilibrium: base 24 m, crest 4 m, height 30 m, water 28 m"
-    formulations: ClassVar[tuple[str, ...]] = ("cone", "lagrange", "degree 2")
+    name = "WA1"
+    title = "Dam on a joint under uplift"
+    source = "Equilibrium: base 24 m, crest 4 m, height 30 m, water 28 m"
+    formulations = ("cone", "lagrange", "degree 2")
     uplift: bool = True
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return the dam without and with uplift."""
-        return [cls(False), cls(True)]
+    parameters: ClassVar = {"uplift": (False, True)}
 
     @property
     def variant(self) -> str:
@@ -59,7 +54,6 @@ class Dam(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the contact forces on the base and where they act."""
         last = run.frames[-1]
         base = np.abs(last.contact_position[:, 1]) < 0.01
         normal = -last.contact_force[base, 0]
@@ -85,21 +79,13 @@ class Dam(SceneCase):
 class PlaneFailure(SceneCase):
     """A slope that fails on a plane behind a crack full of water, 1 % this and that side of it."""
 
-    name: ClassVar[str] = "WA2"
-    title: ClassVar[str] = "Plane failure with a tension crack full of water"
-    source: ClassVar[str] = "Hoek and Bray's section; without cohesion safe from 42.413087 deg on"
-    formulations: ClassVar[tuple[str, ...]] = ("cone", "lagrange")
+    name = "WA2"
+    title = "Plane failure with a tension crack full of water"
+    source = "Hoek and Bray's section; without cohesion safe from 42.413087 deg on"
+    formulations = ("cone", "lagrange")
     share: float = 1.01
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return a slope that slides and one that holds."""
-        return [cls(0.99), cls(1.01)]
-
-    @property
-    def variant(self) -> str:
-        """The factor of safety."""
-        return f"factor of safety {self.share:g}"
+    parameters: ClassVar = {"share": (0.99, 1.01)}  # a slope that slides and one that holds
+    label = "factor of safety {0.share:g}"
 
     def scene(self) -> str:
         """Return the block that slides, the ground below and behind it, and the water."""
@@ -141,16 +127,12 @@ class PlaneFailure(SceneCase):
 class Submerged(SceneCase):
     """A block under water weighs what it displaces less, unless its base is sealed."""
 
-    name: ClassVar[str] = "WA8"
-    title: ClassVar[str] = "Buoyancy"
-    source: ClassVar[str] = "Archimedes: 2 m by 1 m, 2500 kg/m3, 5 m of water above the floor"
-    formulations: ClassVar[tuple[str, ...]] = ("cone", "degree 2")
+    name = "WA8"
+    title = "Buoyancy"
+    source = "Archimedes: 2 m by 1 m, 2500 kg/m3, 5 m of water above the floor"
+    formulations = ("cone", "degree 2")
     sealed: bool = False
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return water all around, and a sealed base."""
-        return [cls(False), cls(True)]
+    parameters: ClassVar = {"sealed": (False, True)}
 
     @property
     def variant(self) -> str:
@@ -179,7 +161,6 @@ class Submerged(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the force on the floor."""
         force = -float(run.frames[-1].contact_force[:, 0].sum())
         wanted = 127530.0 if self.sealed else 29430.0
         return {"force on the floor (N/m)": Check(force, wanted, 1e-6, EXACT)}
@@ -214,7 +195,6 @@ class PressurisedCrack(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the work of the water and the opening in the middle."""
         across = np.array([-0.435889894354067, 0.9])
         sides = fields(run, np.outer([1e-6, -1e-6], across)).displacement
         opening = float((sides[0] - sides[1]) @ across)

@@ -1,7 +1,6 @@
 """Waves: a bar that is pulled at one end."""
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,25 +15,18 @@ if TYPE_CHECKING:
     from nmm.stepping.run import Run
 
 
-@dataclass(frozen=True)
 class BarWave(SceneCase):
     """A traction at the end of a bar runs along it and doubles the displacement of its end.
 
     Behind the front the middle moves at ``sigma c / E``: where that line starts is the arrival.
     """
 
-    name: ClassVar[str] = "B16"
-    title: ClassVar[str] = "Wave in a bar of L = 10, E = rho = 1, pulled from t = 0"
-    source: ClassVar[str] = "d'Alembert: arrival x / c, u(L, 2 L / c) = 2 sigma L / E"
-    formulations: ClassVar[tuple[str, ...]] = (
-        "finite elements",
-        "manifold",
-        "bilinear quads",
-        "quads",
-        "splines",
-    )
-    length: ClassVar[float] = 10.0
-    stress: ClassVar[float] = 1e-3
+    name = "B16"
+    title = "Wave in a bar of L = 10, E = rho = 1, pulled from t = 0"
+    source = "d'Alembert: arrival x / c, u(L, 2 L / c) = 2 sigma L / E"
+    formulations = ("finite elements", "manifold", "bilinear quads", "quads", "splines")
+    length = 10.0
+    stress = 1e-3
 
     def scene(self) -> str:
         """Return the bar, held at its left end."""
@@ -59,7 +51,6 @@ class BarWave(SceneCase):
         return with_cover(super().formulation(scene, name), size=0.2, angle=0.3)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the arrival at the middle and the largest displacement of the end."""
         time, middle = run.history["time"], way(run, "middle")[:, 0]
         behind = (time > 0.7 * self.length) & (time < 1.2 * self.length)
         slope, start = np.polyfit(time[behind], middle[behind], 1)

@@ -1,7 +1,6 @@
 """A wedge in a roof that friction and the stress across it hold."""
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,7 +14,6 @@ STIFF = 1e14
 """Young's modulus of blocks that hardly deform beside joints of 1e10 Pa/m (Pa)."""
 
 
-@dataclass(frozen=True)
 class RoofWedge(SceneCase):
     """A symmetric wedge between joints of given stiffness is pulled out of a roof.
 
@@ -26,19 +24,19 @@ class RoofWedge(SceneCase):
     that takes ``H0 (ks cos^2 a + kn sin^2 a) / (kn ks)`` a side, without shear beyond friction.
     """
 
-    name: ClassVar[str] = "B29"
-    title: ClassVar[str] = "Roof wedge of 40 degrees at its top, phi = 40, kn / ks = 10"
-    source: ClassVar[str] = (
+    name = "B29"
+    title = "Roof wedge of 40 degrees at its top, phi = 40, kn / ks = 10"
+    source = (
         "Crawford and Bray 1983: 2 H0 (ks cos^2 a + kn sin^2 a) sin(phi - a) /"
         " (ks cos a cos phi + kn sin a sin phi)"
     )
-    formulations: ClassVar[tuple[str, ...]] = ("rigid", "dda")
-    angle: ClassVar[float] = 20.0
-    friction: ClassVar[float] = 40.0
-    normal: ClassVar[float] = 1e10
-    shear: ClassVar[float] = 1e9
-    force: ClassVar[float] = 1e5
-    height: ClassVar[float] = 0.9
+    formulations = ("rigid", "dda")
+    angle = 20.0
+    friction = 40.0
+    normal = 1e10
+    shear = 1e9
+    force = 1e5
+    height = 0.9
 
     @property
     def limit(self) -> float:
@@ -80,7 +78,6 @@ class RoofWedge(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the pull at which the wedge comes out."""
         found = run.summary.failure_factor
         reason = "the wedge moves by 1e-4 of its size, and hardly anything resists at the limit"
         computed = float("nan") if found is None else found

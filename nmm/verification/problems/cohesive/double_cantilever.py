@@ -7,7 +7,7 @@ follows from the law alone.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -30,7 +30,7 @@ PLATEAU = float(np.sqrt(ENERGY * MODULUS * THICK**2 * ARM**3 / 12))
 class BentApart(SceneCase):
     """Runs of some thirty steps of nets of degree 2."""
 
-    formulations: ClassVar[tuple[str, ...]] = ("dda",)  # the scene's own
+    formulations = ("dda",)
 
     @property
     def slow(self) -> bool:
@@ -98,22 +98,18 @@ def quadratic(kind: str, size: float, angle: float) -> str:
 class BentByMoments(BentApart):
     """The crack opens at the tip of the notch, and then runs on under one moment."""
 
-    name: ClassVar[str] = "CO1"
-    title: ClassVar[str] = "Double cantilever beam under end moments with a cohesive crack"
-    source: ClassVar[str] = "Closed form: J = 12 M^2 / (E b^2 h^3), what the law takes (Rice 1968)"
+    name = "CO1"
+    title = "Double cantilever beam under end moments with a cohesive crack"
+    source = "Closed form: J = 12 M^2 / (E b^2 h^3), what the law takes (Rice 1968)"
     law: str = "linear"
     kind: str = "triangles"
     angle: float = 17.0
+    label = "{0.law} softening, {0.kind} at {0.angle:g} degrees"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return nets that are turned, of triangles and quads, and two laws."""
         return [cls(), cls(angle=0.0), cls(angle=40.0), cls(kind="quads"), cls("bilinear")]
-
-    @property
-    def variant(self) -> str:
-        """Law and net."""
-        return f"{self.law} softening, {self.kind} at {self.angle:g} degrees"
 
     @property
     def widths(self) -> tuple[Floats, Floats]:
@@ -144,7 +140,6 @@ class BentByMoments(BentApart):
         return np.asarray(np.sqrt(rate * MODULUS * THICK**2 * ARM**3 / 12))
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the moment at four openings, and the mean of those of the crack that runs."""
         width, moment = opening(run), UNIT * run.history["load_factor"]
         last = float(self.widths[0][-1])
         at = np.array([0.25, 0.5, 0.75]) * last
@@ -170,9 +165,9 @@ class ClosedAgain(BentApart):
     by some 1e-4, they leave it by as much, and what they take and give on the way is not the same.
     """
 
-    name: ClassVar[str] = "CO4"
-    title: ClassVar[str] = "A cohesive crack that closes and opens again"
-    source: ClassVar[str] = "Closed form: an opened bond goes back to its origin on the secant"
+    name = "CO4"
+    title = "A cohesive crack that closes and opens again"
+    source = "Closed form: an opened bond goes back to its origin on the secant"
     steps: int = 10
     angle: float = 17.0
     turning: bool = False
@@ -199,7 +194,6 @@ class ClosedAgain(BentApart):
         return "duration = 3.0\n" + beam(0.4, "linear", net, own=own) + step
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the ways back and up again with a straight line; see what the cycle took."""
         width, time, loss = opening(run), run.history["time"], run.history["friction_loss"]
         top, foot = np.searchsorted(time, [1 - 1e-9, 2 - 1e-9])
         most, line = width[top], width[top] * np.abs(time - 2)

@@ -1,8 +1,7 @@
 """A notched beam whose cohesive crack is drawn, or grows."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -21,20 +20,17 @@ class CohesiveBeam(SceneCase):
     The mouth of the notch is opened; the load follows, past its peak.
     """
 
-    name: ClassVar[str] = "CO3"
-    title: ClassVar[str] = "Notched beam in three-point bending with a cohesive crack"
-    source: ClassVar[str] = "Finite elements with the same plane, 40 and 80 layers, extrapolated"
-    formulations: ClassVar[tuple[str, ...]] = ("dda",)  # the scene's own
-    peak: ClassVar[float] = 4216.5
-    mouth: ClassVar[float] = 5.06e-5
-    height: ClassVar[float] = 0.1
-    notch: ClassVar[float] = 0.03
+    name = "CO3"
+    title = "Notched beam in three-point bending with a cohesive crack"
+    source = "Finite elements with the same plane, 40 and 80 layers, extrapolated"
+    formulations = ("dda",)
+    peak = 4216.5
+    mouth = 5.06e-5
+    height = 0.1
+    notch = 0.03
     angle: float | None = None
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return a drawn plane, and zones in nets that are turned."""
-        return [cls(), cls(0.0), cls(17.0), cls(40.0)]
+    # A drawn plane, and zones in nets that are turned.
+    parameters: ClassVar = {"angle": (None, 0.0, 17.0, 40.0)}
 
     @property
     def variant(self) -> str:
@@ -80,7 +76,6 @@ class CohesiveBeam(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the load at its peak and where the reference has it; see path and energy."""
         load, history = run.history["load_factor"], run.history
         mouth = history["monitor:right:ux"] - history["monitor:left:ux"]
         free = self.angle is not None

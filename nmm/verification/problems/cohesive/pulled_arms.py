@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -37,9 +37,9 @@ class PulledApart(BentApart):
     passes from cell to cell.
     """
 
-    name: ClassVar[str] = "CO2"
-    title: ClassVar[str] = "Double cantilever beam under end forces with a cohesive crack"
-    source: ClassVar[str] = "Griffith's crack (GR2): P^2 D is constant, whatever the length"
+    name = "CO2"
+    title = "Double cantilever beam under end forces with a cohesive crack"
+    source = "Griffith's crack (GR2): P^2 D is constant, whatever the length"
     strength: float = 3e6
     size: float = 0.025
 
@@ -92,7 +92,6 @@ class PulledApart(BentApart):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the load of the crack that runs with Griffith's at the same opening."""
         history, runs = run.history, opening(run) >= self.width
         load = 1e5 * THICK * (ARM - MOUTH / 2) * history["load_factor"]
         ends = history["monitor:upper end:uy"] - history["monitor:lower end:uy"]

@@ -36,28 +36,24 @@ def strip(depth: float, tables: Sequence[str], increment: float) -> str:
 class Elastica(SceneCase):
     """A strip under a force across its end, which keeps its direction."""
 
-    name: ClassVar[str] = "FK1"
-    title: ClassVar[str] = "Elastica under a dead force"
-    source: ClassVar[str] = "Elliptic integrals; Mattiasson 1981"
-    formulations: ClassVar[tuple[str, ...]] = ("manifold", "quads degree 2", "splines")
+    name = "FK1"
+    title = "Elastica under a dead force"
+    source = "Elliptic integrals; Mattiasson 1981"
+    formulations = ("manifold", "quads degree 2", "splines")
     load: int = 1
-    depth: ClassVar[float] = 0.2
+    depth = 0.2
     # P L^2 / (E I): deflection and shortening over the length.
     exact: ClassVar[dict[int, tuple[float, float]]] = {
         1: (0.3017207738, 0.0564332363),
         5: (0.7137915236, 0.3876283607),
         10: (0.8106090249, 0.5549955978),
     }
+    label = "P L^2 = {0.load} E I"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return three loads."""
         return [cls(load) for load in cls.exact]
-
-    @property
-    def variant(self) -> str:
-        """The load."""
-        return f"P L^2 = {self.load} E I"
 
     def scene(self) -> str:
         """Return a strip of a fiftieth of its length, loaded in one increment."""
@@ -71,7 +67,6 @@ class Elastica(SceneCase):
         return strip(h, tables, 1.0)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare where the tip is."""
         x, y = last_way(run, "tip") / LENGTH
         rise, short = self.exact[self.load]
         reason = "shear and stretch of a strip of a fiftieth of its length"
@@ -104,20 +99,19 @@ def moment_of_bending(bend: float) -> float:
     return float(6 / bend * simpson(bend * r**2 * (bend**2 * r**2 - 1), x=z))
 
 
-@dataclass(frozen=True)
 class RollUp(SceneCase):
     """A couple of two pressures on a head at its end, which turns with it, rolls a strip up.
 
     A strip of finite thickness is softer than a beam: fibres that bend press on each other.
     """
 
-    name: ClassVar[str] = "FK2"
-    title: ClassVar[str] = "Strip rolled up by a couple"
-    source: ClassVar[str] = "Collocation of uniform bending with finite strain along and across"
-    formulations: ClassVar[tuple[str, ...]] = ("quads degree 2",)
-    depth: ClassVar[float] = 0.2
-    sections: ClassVar[tuple[float, float]] = (3.0, 6.0)
-    wide: ClassVar[float] = 1.5
+    name = "FK2"
+    title = "Strip rolled up by a couple"
+    source = "Collocation of uniform bending with finite strain along and across"
+    formulations = ("quads degree 2",)
+    depth = 0.2
+    sections = (3.0, 6.0)
+    wide = 1.5
 
     def scene(self) -> str:
         """Return a strip with a head of one on both sides; the couple of a beam's full turn."""
@@ -152,7 +146,6 @@ class RollUp(SceneCase):
         return MODULUS * self.depth**3 / 12
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the moment, by the ends of the pressed faces, with that of the curvature."""
         h, low, high = self.depth, *self.sections
         ends = [self._section(run, x) for x in self.sections]
         turns = [float(np.unwrap(np.arctan2(-one[1][:, 0], one[1][:, 1]))[-1]) for one in ends]
@@ -187,27 +180,23 @@ class RollUp(SceneCase):
 class BuckledColumn(SceneCase):
     """A column is pressed beyond its critical load and bends over, led by a small force across."""
 
-    name: ClassVar[str] = "FK4"
-    title: ClassVar[str] = "Column beyond its critical load"
-    source: ClassVar[str] = "Elliptic integrals of the perfect column"
-    formulations: ClassVar[tuple[str, ...]] = ("manifold degree 2", "quads degree 2")
+    name = "FK4"
+    title = "Column beyond its critical load"
+    source = "Elliptic integrals of the perfect column"
+    formulations = ("manifold degree 2", "quads degree 2")
     tip: int = 60
-    depth: ClassVar[float] = 0.1
+    depth = 0.1
     # Angle of the tip in degrees: load over the critical one, place of the tip over the length.
     exact: ClassVar[dict[int, tuple[float, float, float]]] = {
         60: (1.1517196205, 0.7410196061, 0.5932076462),
         120: (1.8848008690, 0.1231599724, 0.8031709900),
     }
+    label = "{0.tip} deg"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return two loads."""
         return [cls(tip) for tip in cls.exact]
-
-    @property
-    def variant(self) -> str:
-        """The angle of the tip."""
-        return f"{self.tip} deg"
 
     def scene(self) -> str:
         """Return a column that lies along x."""
@@ -221,7 +210,6 @@ class BuckledColumn(SceneCase):
         return strip(h, tables, 0.1)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare where the tip is."""
         x, y = last_way(run, "tip") / LENGTH + np.array([1.0, 0.0])
         _, along, across = self.exact[self.tip]
         reason = "a force across of a thousandth; cells of five times the thickness"

@@ -1,7 +1,6 @@
 """A square that is spun fast enough to stretch: energy and momenta in flight."""
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -39,16 +38,15 @@ def pseudo_rigid(spin: float, duration: float) -> Floats:
     return np.asarray(found.y[:4, -1].reshape(2, 2))
 
 
-@dataclass(frozen=True)
 class SpunSquare(SceneCase):
     """A square is spun from rest shape: it stretches by 3 % and swings, and keeps what it has."""
 
-    name: ClassVar[str] = "IN2"
-    title: ClassVar[str] = "Energy and angular momentum of a body that spins and swings"
-    source: ClassVar[str] = "E = rho a^4 omega^2 / 12, L = rho a^4 omega / 6; an ODE of order 8"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "manifold", "quads degree 2", "splines")
-    spin: ClassVar[float] = 20.0
-    duration: ClassVar[float] = 0.1
+    name = "IN2"
+    title = "Energy and angular momentum of a body that spins and swings"
+    source = "E = rho a^4 omega^2 / 12, L = rho a^4 omega / 6; an ODE of order 8"
+    formulations = ("dda", "manifold", "quads degree 2", "splines")
+    spin = 20.0
+    duration = 0.1
 
     def scene(self) -> str:
         """Return a free square and steps of a fiftieth of its swing."""
@@ -68,7 +66,6 @@ class SpunSquare(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare energy and angular momentum, and the shape of a block of one strain."""
         model, history = run.stepper.model, run.history
         energy = history["kinetic_energy"] + history["strain_energy"]
         own = own_momenta(model, run.state, finite=True)[0]
@@ -90,14 +87,13 @@ class SpunSquare(SceneCase):
         return checks
 
 
-@dataclass(frozen=True)
 class LongFlight(SceneCase):
     """The square in flight for two thousand steps that do not resolve how it swings."""
 
-    name: ClassVar[str] = "IN3"
-    title: ClassVar[str] = "Energy and angular momentum over two thousand steps"
-    source: ClassVar[str] = "E = rho a^4 omega^2 / 12, L = rho a^4 omega / 6"
-    steps: ClassVar[int] = 2_000
+    name = "IN3"
+    title = "Energy and angular momentum over two thousand steps"
+    source = "E = rho a^4 omega^2 / 12, L = rho a^4 omega / 6"
+    steps = 2_000
 
     @property
     def slow(self) -> bool:
@@ -111,7 +107,6 @@ class LongFlight(SceneCase):
         return text.replace("duration = 0.1", f"{duration}")
 
     def measure(self, run: "Run") -> Checks:
-        """Compare both with the start's, throughout and at the end."""
         model, history, spin = run.stepper.model, run.history, SpunSquare.spin
         energy = history["kinetic_energy"] + history["strain_energy"]
         own = own_momenta(model, run.state, finite=True)[0]

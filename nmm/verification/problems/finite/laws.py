@@ -1,7 +1,7 @@
 """Stress and energy of laws of finite strain under given deformation gradients."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -12,8 +12,6 @@ from nmm.materials.neo_hookean import NeoHookean
 from nmm.verification.base import Case, Check, Checks, limit
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from nmm.materials.base import Law
 
 LAWS: "dict[str, Law]" = {
@@ -62,28 +60,18 @@ class OfEachLaw(Case):
     """What is asked of every law alike, without a body."""
 
     law: str = "neo-Hooke"
-
-    @classmethod
-    def variants(cls) -> "Sequence[Self]":
-        """Return both laws."""
-        return [cls(law) for law in LAWS]
-
-    @property
-    def variant(self) -> str:
-        """The law."""
-        return self.law
+    parameters: ClassVar = {"law": LAWS}
+    label = "{0.law}"
 
 
-@dataclass(frozen=True)
 class DeformedMatter(OfEachLaw):
     """Simple shear, a gradient without symmetry, and pull with free sides; no body is solved."""
 
-    name: ClassVar[str] = "FK3"
-    title: ClassVar[str] = "Laws of finite strain under given gradients"
-    source: ClassVar[str] = "E = 1, nu = 0.3: derivatives of the energies by computer algebra"
+    name = "FK3"
+    title = "Laws of finite strain under given gradients"
+    source = "E = 1, nu = 0.3: derivatives of the energies by computer algebra"
 
     def checks(self, formulation: str) -> Checks:
-        """Compare every stress and energy."""
         law, digits = LAWS[self.law], "digits of the table"
         checks = {}
         for shear, stress, energy in SHEARED[self.law]:
@@ -104,13 +92,12 @@ class DeformedMatter(OfEachLaw):
         return checks
 
 
-@dataclass(frozen=True)
 class TurnedMatter(OfEachLaw):
     """A stressed body is turned: its energy stays, its stress turns, whatever the angle."""
 
-    name: ClassVar[str] = "FK6"
-    title: ClassVar[str] = "Laws of finite strain in a body that is turned"
-    source: ClassVar[str] = "Objectivity: W(R F) = W(F), s(R F) = R s(F) R^T"
+    name = "FK6"
+    title = "Laws of finite strain in a body that is turned"
+    source = "Objectivity: W(R F) = W(F), s(R F) = R s(F) R^T"
 
     def checks(self, formulation: str) -> Checks:
         """Turn a gradient without symmetry by 30, 90 and 200 degrees in one step."""

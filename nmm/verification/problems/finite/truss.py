@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -43,19 +43,12 @@ class PushedTruss(SceneCase):
     """The apex is led down a given way; bars take any strain in Green's measure."""
 
     way: float = 1.0
-    name: ClassVar[str] = "PA1"
-    title: ClassVar[str] = "Two-bar truss, led through and beyond its flat position"
-    source: ClassVar[str] = "P = E A (h - w) (2 h w - w^2) / L^3: Green's strain"
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return ways before and past the limit, flat, pulled, and stress-free below."""
-        return [cls(way) for way in (0.2, 0.42264973, 0.5, 1.0, 1.5, 2.0, 2.2)]
-
-    @property
-    def variant(self) -> str:
-        """How far down."""
-        return f"w = {self.way:g} h"
+    name = "PA1"
+    title = "Two-bar truss, led through and beyond its flat position"
+    source = "P = E A (h - w) (2 h w - w^2) / L^3: Green's strain"
+    # Ways before and past the limit, flat, pulled, and stress-free below.
+    parameters: ClassVar = {"way": (0.2, 0.42264973, 0.5, 1.0, 1.5, 2.0, 2.2)}
+    label = "w = {0.way:g} h"
 
     def scene(self) -> str:
         """Return the bar with its end led down."""
@@ -68,20 +61,18 @@ class PushedTruss(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the load of both bars."""
         w, cube = self.way, np.hypot(SPAN, RISE) ** 3
         exact = STIFFNESS * (RISE - w) * (2 * RISE * w - w**2) / cube
         found = -2 * float(run.history["reaction:apex:y"][-1])
         return {"load (N)": Check(found, float(exact), 5e-5, "springs of the supports", LIMIT)}
 
 
-@dataclass(frozen=True)
 class SnappedTruss(SceneCase):
     """The load on the apex grows until nothing balances it."""
 
-    name: ClassVar[str] = "PA1 limit"
-    title: ClassVar[str] = "Two-bar truss, largest load"
-    source: ClassVar[str] = "dP / dw = 0 at w = h (1 - 1 / sqrt 3): 379.19801295 N"
+    name = "PA1 limit"
+    title = "Two-bar truss, largest load"
+    source = "dP / dw = 0 at w = h (1 - 1 / sqrt 3): 379.19801295 N"
 
     def scene(self) -> str:
         """Return the bar with half of the load."""
@@ -96,7 +87,6 @@ class SnappedTruss(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the load and the way there."""
         load = run.summary.failure_factor
         way = -last_way(run, "apex")[1]
         return {

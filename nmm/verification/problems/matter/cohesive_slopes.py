@@ -1,7 +1,7 @@
 """Factors of safety of slopes whose joints have a cohesion, which is lost where they open."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -27,9 +27,9 @@ class CohesiveSlope(JointedSlope):
     and the bound is reached.
     """
 
-    name: ClassVar[str] = "PL5 cohesion"
-    title: ClassVar[str] = "Slope of joints with cohesion: strength reduction"
-    source: ClassVar[str] = "least wedge on a bedding; linear programme over forces"
+    name = "PL5 cohesion"
+    title = "Slope of joints with cohesion: strength reduction"
+    source = "least wedge on a bedding; linear programme over forces"
     cohesion: float = 20e3
     friction: float = 30.0
     reached: str = "wedge"
@@ -103,7 +103,6 @@ class CohesiveSlope(JointedSlope):
         return float(holds / (weight * np.sin(dip)))
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the bracket with both references."""
         low, high = run.summary.factor_of_safety or np.nan, run.summary.factor_that_fails or np.nan
         wedge, bound = self.wedge, self.bound(self.cohesion)
         strained = "rigid bodies in the reference, which strain by 1e-4 here"

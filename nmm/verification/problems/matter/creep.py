@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -53,24 +53,16 @@ def at_time(run: "Run", values: Floats, time: float) -> float:
 class ShearCreep(SceneCase):
     """A square in pure shear creeps as springs and dashpots do."""
 
-    name: ClassVar[str] = "VI1"
-    title: ClassVar[str] = "Creep of springs and dashpots"
-    source: ClassVar[str] = (
+    name = "VI1"
+    title = "Creep of springs and dashpots"
+    source = (
         "Creep functions t / eta, (1 - exp(-t G / eta)) / G and their sums; Findley et al. 1976"
     )
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "manifold", "quads degree 2")
+    formulations = ("dda", "manifold", "quads degree 2")
     law: str = "maxwell"
-    stress: ClassVar[float] = 1e6
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return the four laws."""
-        return [cls(law) for law in LAWS]
-
-    @property
-    def variant(self) -> str:
-        """The law."""
-        return self.law
+    stress = 1e6
+    parameters: ClassVar = {"law": LAWS}
+    label = "{0.law}"
 
     def scene(self) -> str:
         """Return the square: tractions along its sides from the start on."""
@@ -103,7 +95,6 @@ class ShearCreep(SceneCase):
         return float(self.stress * (at_once + flows + delayed * (self.law != "maxwell")))
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the shear, which the motion of the top is, at two times."""
         found = way(run, "top")[:, 0]
         why = "steps of a fortieth of the delay"
         return {
@@ -117,22 +108,21 @@ class ShearCreep(SceneCase):
         }
 
 
-@dataclass(frozen=True)
 class PressedCreep(SceneCase):
     """A block under pressure in plane strain settles at once, then ever on.
 
     Its volume is elastic, so that the pressure across delays the flow.
     """
 
-    name: ClassVar[str] = "VI2"
-    title: ClassVar[str] = "Creep under pressure in plane strain"
-    source: ClassVar[str] = (
+    name = "VI2"
+    title = "Creep under pressure in plane strain"
+    source = (
         "Laplace transform: s / 4 (1 / G + t / eta + 3 (1 / 3K + (1 / (3K + G) - 1 / 3K) "
         "exp(-3 K t / (tau (3K + G)))))"
     )
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "manifold", "quads degree 2")
-    shear: ClassVar[float] = 4e9
-    viscosity: ClassVar[float] = 4e14
+    formulations = ("dda", "manifold", "quads degree 2")
+    shear = 4e9
+    viscosity = 4e14
 
     def scene(self) -> str:
         """Return the block on rollers."""
@@ -158,7 +148,6 @@ class PressedCreep(SceneCase):
         return float(1e6 / 4 * (1 / g + time / self.viscosity + volume))
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the strain at three times."""
         found = (way(run, "base") - way(run, "top"))[:, 1]
         why = "steps of a hundredth of the relaxation"
         return {
@@ -172,18 +161,17 @@ class PressedCreep(SceneCase):
         }
 
 
-@dataclass(frozen=True)
 class CylinderCreep(SceneCase):
     """A thick cylinder under inner pressure creeps; stresses in its plane stay elastic."""
 
-    name: ClassVar[str] = "VI3"
-    title: ClassVar[str] = "Thick cylinder that creeps"
-    source: ClassVar[str] = (
+    name = "VI3"
+    title = "Thick cylinder that creeps"
+    source = (
         "Lame's stresses at all times, the strain by Laplace transform: u(a) 1.875e-4 m at once, "
         "3.565225075e-4 m after the relaxation time"
     )
-    formulations: ClassVar[tuple[str, ...]] = ("manifold degree 2", "quads degree 2")
-    sides: ClassVar[int] = 32
+    formulations = ("manifold degree 2", "quads degree 2")
+    sides = 32
 
     def scene(self) -> str:
         """Return a quarter, a = 1, b = 2, under 1 MPa."""
@@ -206,7 +194,6 @@ class CylinderCreep(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the widening at once and after the relaxation time."""
         found = way(run, "inner")[:, 0]
         why = "32 sides for the quarter circle; the aim is 1 %"
         return {

@@ -1,7 +1,6 @@
 """Soil pressed in a box: Mohr-Coulomb at an edge of its pyramid."""
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,16 +13,13 @@ if TYPE_CHECKING:
     from nmm.stepping.run import Run
 
 
-@dataclass(frozen=True)
 class Oedometer(SceneCase):
     """Soil between smooth walls is pressed by 1 %; both stresses across are equal and yield."""
 
-    name: ClassVar[str] = "PL1"
-    title: ClassVar[str] = "Oedometer test of soil with dilation"
-    source: ClassVar[str] = (
-        "Flow on the edge of the pyramid, piecewise linear: 529.27174 and 164.87691 kPa"
-    )
-    formulations: ClassVar[tuple[str, ...]] = ("manifold", "quads degree 2")
+    name = "PL1"
+    title = "Oedometer test of soil with dilation"
+    source = "Flow on the edge of the pyramid, piecewise linear: 529.27174 and 164.87691 kPa"
+    formulations = ("manifold", "quads degree 2")
 
     def scene(self) -> str:
         """Return a square of 1 m whose top comes down by 10 mm."""
@@ -44,7 +40,6 @@ class Oedometer(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare both stresses."""
         found = run.stress.mean(axis=0) / 1e3
         exact = "one state in all of the soil"
         return {

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -87,22 +87,13 @@ class PyramidReturns(Case):
     """Trials return to planes, edges and the apex of Mohr-Coulomb's pyramid."""
 
     dilation: int = 30
-    name: ClassVar[str] = "PL1c"
-    title: ClassVar[str] = "Stresses return to the pyramid of Mohr and Coulomb"
-    source: ClassVar[str] = "Enumeration of active planes with the conditions of Kuhn and Tucker"
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return flow that is associated, and that is not."""
-        return [cls(dilation) for dilation in PYRAMID]
-
-    @property
-    def variant(self) -> str:
-        """The dilation."""
-        return f"dilation of {self.dilation} degrees"
+    name = "PL1c"
+    title = "Stresses return to the pyramid of Mohr and Coulomb"
+    source = "Enumeration of active planes with the conditions of Kuhn and Tucker"
+    parameters: ClassVar = {"dilation": PYRAMID}  # flow that is associated, and that is not
+    label = "dilation of {0.dilation} degrees"
 
     def checks(self, formulation: str) -> Checks:
-        """Compare the table."""
         law = MohrCoulombPlasticity(*ELASTIC, COHESION, PHI, float(np.radians(self.dilation)))
         return compared(law, PYRAMID[self.dilation])
 
@@ -115,7 +106,6 @@ class ConeReturns(Case):
     source = "eta = 3 tan phi / sqrt(9 + 12 tan^2 phi), xi = 3 / sqrt(9 + 12 tan^2 phi)"
 
     def checks(self, formulation: str) -> Checks:
-        """Compare slopes of cones and the table."""
         checks = {}
         for match, degrees, known in (
             ("plane_strain", 30, (0.4803844614, 0.8320502943)),

@@ -1,7 +1,7 @@
 """Factors of safety by strength reduction: a slope of soil, and wedges of rock on a plane."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,7 +19,6 @@ WEIGHT = 20e3
 """Of soil (N/m3)."""
 
 
-@dataclass(frozen=True)
 class SoilSlope(SceneCase):
     """A slope 2 to 1 on firm ground: phi = 20, c / (gamma H) = 0.05, no dilation.
 
@@ -27,13 +26,13 @@ class SoilSlope(SceneCase):
     a hundredth of its elastic stiffness. Tension is limited by the apex alone.
     """
 
-    name: ClassVar[str] = "PL5"
-    title: ClassVar[str] = "Slope of soil: strength reduction"
-    source: ClassVar[str] = (
+    name = "PL5"
+    title = "Slope of soil: strength reduction"
+    source = (
         "Griffiths and Lane 1999 (1.4), Bishop and Morgenstern (1.380), log-spiral upper bound for "
         "associated flow 1.3978"
     )
-    formulations: ClassVar[tuple[str, ...]] = ("quads degree 2",)
+    formulations = ("quads degree 2",)
 
     @property
     def slow(self) -> bool:
@@ -60,7 +59,6 @@ class SoilSlope(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the factor with the band of the published ones."""
         low, high = run.summary.factor_of_safety or np.nan, run.summary.factor_that_fails or np.nan
         band = "1.34 to 1.40 hold limit analyses and finite elements"
         return {
@@ -79,20 +77,18 @@ class SlidingWedge(SceneCase):
     Blocks are deformable and the joint follows them: lengths differ by strains of 1e-5.
     """
 
-    name: ClassVar[str] = "PL5 plane"
-    title: ClassVar[str] = "Wedge on a joint: strength reduction"
-    source: ClassVar[str] = (
-        "Plane failure (Hoek and Bray 1981): (c A + W cos beta tan phi) / (W sin beta)"
-    )
-    formulations: ClassVar[tuple[str, ...]] = ("dda",)
+    name = "PL5 plane"
+    title = "Wedge on a joint: strength reduction"
+    source = "Plane failure (Hoek and Bray 1981): (c A + W cos beta tan phi) / (W sin beta)"
+    formulations = ("dda",)
     face: float = 60.0
     joint: float = 35.0
     friction: float = 45.0
     cohesion: float = 0.0
     cut: bool = False
 
-    height: ClassVar[float] = 10.0
-    density: ClassVar[float] = 2600.0
+    height = 10.0
+    density = 2600.0
 
     @classmethod
     def variants(cls) -> "tuple[SlidingWedge, ...]":
@@ -153,7 +149,6 @@ class SlidingWedge(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the bracket with the closed form."""
         low, high = run.summary.factor_of_safety or np.nan, run.summary.factor_that_fails or np.nan
         strained = "rigid bodies in the closed form"
         return {

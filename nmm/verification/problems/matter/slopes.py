@@ -29,18 +29,18 @@ class JointedSlope(SceneCase):
     which it need not.
     """
 
-    name: ClassVar[str] = "PL5 slope"
-    title: ClassVar[str] = "Slope of two joint sets: strength reduction"
-    source: ClassVar[str] = "tan phi over tan of the bedding's dip; linear programme over forces"
-    formulations: ClassVar[tuple[str, ...]] = ("dda",)
+    name = "PL5 slope"
+    title = "Slope of two joint sets: strength reduction"
+    source = "tan phi over tan of the bedding's dip; linear programme over forces"
+    formulations = ("dda",)
     dips: tuple[float, float] = (35.0, 110.0)
     spacings: tuple[float, float] = (3.0, 4.0)
     friction: float = 45.0
     slides: bool = True
 
-    face: ClassVar[float] = 60.0
-    height: ClassVar[float] = 10.0
-    behind: ClassVar[float] = 20.0
+    face = 60.0
+    height = 10.0
+    behind = 20.0
 
     @classmethod
     def variants(cls) -> "tuple[JointedSlope, ...]":
@@ -142,7 +142,6 @@ class JointedSlope(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the bracket with the reference."""
         low, high = run.summary.factor_of_safety or np.nan, run.summary.factor_that_fails or np.nan
         strained = "rigid bodies in the reference, which strain by 1e-4 here"
         return {
@@ -161,17 +160,14 @@ class ToppledSlope(LeaningColumns):
     load is within the bracket's width of it.
     """
 
-    name: ClassVar[str] = "PL5 toppling"
-    title: ClassVar[str] = "Leaning columns: strength reduction"
-    source: ClassVar[str] = "Goodman and Bray 1976: tan phi = 0.7855"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "rigid")
+    name = "PL5 toppling"
+    title = "Leaning columns: strength reduction"
+    source = "Goodman and Bray 1976: tan phi = 0.7855"
+    formulations = ("dda", "rigid")
     friction: float = 45.0
-    needed: ClassVar[float] = 0.7855
-
-    @classmethod
-    def variants(cls) -> "tuple[ToppledSlope, ...]":
-        """Two frictions: the factor of their tangents differs, the friction needed does not."""
-        return (cls(45.0), cls(50.0))
+    needed = 0.7855
+    # Two frictions: the factor of their tangents differs, the friction needed does not.
+    parameters: ClassVar = {"friction": (45.0, 50.0)}
 
     @property
     def slow(self) -> bool:
@@ -183,7 +179,6 @@ class ToppledSlope(LeaningColumns):
         return self._scene("[strength_reduction]\n")
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the friction of the last that hold and the first that fail."""
         low, high = run.summary.factor_of_safety or np.nan, run.summary.factor_that_fails or np.nan
         most, reason = float(np.tan(np.radians(self.friction))), "width of the bracket, 0.01"
         return {

@@ -1,9 +1,8 @@
 """A round tunnel in ground that flows, whose stress reaches the corner of Mohr's pyramid."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -34,21 +33,14 @@ class FlowingTunnel(SceneCase):
     A ring of elastic ground without end resists as springs of ``2 G / r``, exactly.
     """
 
-    name: ClassVar[str] = "PL2"
-    title: ClassVar[str] = "Tunnel in ground that flows"
-    source: ClassVar[str] = "Salencon's zones, beyond r = 1.271 a; within s_z = s_t: two solutions"
-    formulations: ClassVar[tuple[str, ...]] = ("quads degree 2",)
+    name = "PL2"
+    title = "Tunnel in ground that flows"
+    source = "Salencon's zones, beyond r = 1.271 a; within s_z = s_t: two solutions"
+    formulations = ("quads degree 2",)
     dilation: int = 0
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return ground that keeps its volume as it flows, and one that dilates by its friction."""
-        return [cls(angle) for angle in WALLS]
-
-    @property
-    def variant(self) -> str:
-        """The dilation."""
-        return f"psi {self.dilation}"
+    # Ground that keeps its volume as it flows, and one that dilates by its friction.
+    parameters: ClassVar = {"dilation": WALLS}
+    label = "psi {0.dilation}"
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return cells of a quarter of the radius."""
@@ -86,7 +78,6 @@ class FlowingTunnel(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the way of the wall; the corner is worth 0.86 and 1.67 % of it."""
         exact, plain = WALLS[self.dilation]
         inwards = -1e3 * float(way(run, "wall")[-1, 0])
         return {

@@ -1,7 +1,6 @@
 """A lever on a row of links that break one after the other, from its far end to its hinge."""
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -26,13 +25,12 @@ def known() -> list[tuple[float, float]]:
     return found
 
 
-@dataclass(frozen=True)
 class Lever(SceneCase):
     """The load falls from link to link: bonds that open like a zip."""
 
-    name: ClassVar[str] = "PA5"
-    title: ClassVar[str] = "A lever breaks its links one after the other"
-    source: ClassVar[str] = "P l = k turn sum(x^2) of the links left; the farthest breaks first"
+    name = "PA5"
+    title = "A lever breaks its links one after the other"
+    source = "P l = k turn sum(x^2) of the links left; the farthest breaks first"
 
     def scene(self) -> str:
         """Return a rigid lever, hinged at its left end, on columns that are bonded to it."""
@@ -58,7 +56,6 @@ class Lever(SceneCase):
         return text.scene(f'{head}[loading.control]\ntype = "events"\n', tables)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare load and turn where the first of a link's two points breaks."""
         load, turn = run.history["load_factor"][::2], run.history["monitor:tip:uy"][::2] / ARM
         number = len(run.history["load_factor"])
         checks = {"points that break": Check(float(number), 2.0 * len(PLACES), 0.0, "two a link")}

@@ -1,8 +1,7 @@
 """Links and columns side by side that break one by one, in the order of their strength."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -60,14 +59,13 @@ def pull(run: "Run", count: int) -> Floats:
     return np.asarray(np.sum(forces, axis=0))
 
 
-@dataclass(frozen=True)
 class PlatenColumns(SceneCase):
     """Columns of three heights between platens: each break drops the force by one of them."""
 
-    name: ClassVar[str] = "PA3"
-    title: ClassVar[str] = "Three columns between platens break one by one"
-    source: ClassVar[str] = "E A / L of 20, 10, 5 kN/mm, strengths of 200, 250, 400 N"
-    strengths: ClassVar[tuple[float, ...]] = (200.0, 250.0, 400.0)
+    name = "PA3"
+    title = "Three columns between platens break one by one"
+    source = "E A / L of 20, 10, 5 kN/mm, strengths of 200, 250, 400 N"
+    strengths = (200.0, 250.0, 400.0)
 
     def scene(self) -> str:
         """Return the columns as links of their stiffness, led down by steps of 3 um."""
@@ -78,7 +76,6 @@ class PlatenColumns(SceneCase):
         return bundle(self.strengths, control, (20e6, 10e6, 5e6))
 
     def measure(self, run: "Run") -> Checks:
-        """Compare forces before and after each break, and the way to it."""
         way, force = run.history["load_factor"], pull(run, 3)
         events = np.flatnonzero(np.diff(run.history["broken"]) > 0)
         known = zip((10.0, 25.0, 80.0), (350.0, 375.0, 400.0), (150.0, 125.0, 0.0), strict=True)
@@ -97,20 +94,18 @@ class PlatenColumns(SceneCase):
         return checks
 
 
-@dataclass(frozen=True)
 class FibreBundle(SceneCase):
     """Ten equal links: each event breaks the weakest that is left."""
 
-    name: ClassVar[str] = "PA4"
-    title: ClassVar[str] = "Ten links break one by one, the third at the largest force"
-    source: ClassVar[str] = "F_k = (n - k + 1) f_k: Daniels 1945"
+    name = "PA4"
+    title = "Ten links break one by one, the third at the largest force"
+    source = "F_k = (n - k + 1) f_k: Daniels 1945"
 
     def scene(self) -> str:
         """Return the links, from event to event."""
         return bundle(LINKS, 'type = "events"\n')
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the force at each event and the way to it."""
         order = np.sort(LINKS)
         known = order * np.arange(len(LINKS), 0, -1)
         force, way = pull(run, len(LINKS)), run.history["load_factor"]

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -65,10 +65,11 @@ class SofteningBar(SceneCase):
 
     ratio: float = 2.0
     law: str = "linear"
-    name: ClassVar[str] = "PA2"
-    title: ClassVar[str] = "A bar that softens in one joint, snaps back as far as it is long"
-    source: ClassVar[str] = "Straight from (f L / E, f A) to (w, 0); work G A, Petersson's knee"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "bilinear quads")
+    name = "PA2"
+    title = "A bar that softens in one joint, snaps back as far as it is long"
+    source = "Straight from (f L / E, f A) to (w, 0); work G A, Petersson's knee"
+    formulations = ("dda", "bilinear quads")
+    label = "{0.law}, {0.ratio:.10g} of the critical length"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
@@ -77,11 +78,6 @@ class SofteningBar(SceneCase):
             *(cls(ratio) for ratio in (0.5, 1.0, 1 + 1e-9, 2.0, 100.0)),
             cls(1 / CRITICAL, "bilinear"),
         ]
-
-    @property
-    def variant(self) -> str:
-        """The law and the length."""
-        return f"{self.law}, {self.ratio:.10g} of the critical length"
 
     @property
     def width(self) -> float:
@@ -96,7 +92,6 @@ class SofteningBar(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the peak, the way of the loaded end along the path, and the work."""
         history, long = run.history, max(self.ratio, 1.0)
         force, end = history["load_factor"], history["monitor:end:ux"]
         crack = history["monitor:other:ux"] - history["monitor:one:ux"]

@@ -1,7 +1,6 @@
 """Columns and lifts that are put in one after the other: each carries what comes after it."""
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,14 +20,13 @@ def ends(run: "Run", stages: int) -> list[int]:
     return [int(row) for row in np.searchsorted(run.history["time"], np.arange(stages) + 1 - 1e-9)]
 
 
-@dataclass(frozen=True)
 class AddedColumn(SceneCase):
     """A column is put in beside a loaded one, free of stress; then the first is taken away."""
 
-    name: ClassVar[str] = "ST3"
-    title: ClassVar[str] = "A column put in under load takes its share of what comes later"
-    source: ClassVar[str] = "Compliances 4 / (1e9 2) and 4 / (3e9 1) share 2 MN as 0.8 and 1.2"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "quads")
+    name = "ST3"
+    title = "A column put in under load takes its share of what comes later"
+    source = "Compliances 4 / (1e9 2) and 4 / (3e9 1) share 2 MN as 0.8 and 1.2"
+    formulations = ("dda", "quads")
 
     def scene(self) -> str:
         """Return column A and two halves of B beside it under a stiff cap."""
@@ -69,7 +67,6 @@ class AddedColumn(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare what columns carry and how far the cap comes down, stage by stage."""
         history, last = run.history, ends(run, 4)
         shared = history["reaction:under left:y"] + history["reaction:under right:y"]
         soft = "springs of contact and the cap are soft by 1e-4"
@@ -93,19 +90,18 @@ class AddedColumn(SceneCase):
         }
 
 
-@dataclass(frozen=True)
 class Embankment(SceneCase):
     """Six lifts are placed on one another, each level as it is placed."""
 
-    name: ClassVar[str] = "ST2"
-    title: ClassVar[str] = "An embankment built in lifts settles most at mid height"
-    source: ClassVar[str] = "gamma (H - y) y / M, M = E (1 - nu) / ((1 + nu) (1 - 2 nu))"
-    formulations: ClassVar[tuple[str, ...]] = ("manifold", "quads degree 2")
-    lifts: ClassVar[int] = 6
-    height: ClassVar[float] = 2.0
-    modulus: ClassVar[float] = 20e6
-    poisson: ClassVar[float] = 0.3
-    density: ClassVar[float] = 2000.0
+    name = "ST2"
+    title = "An embankment built in lifts settles most at mid height"
+    source = "gamma (H - y) y / M, M = E (1 - nu) / ((1 + nu) (1 - 2 nu))"
+    formulations = ("manifold", "quads degree 2")
+    lifts = 6
+    height = 2.0
+    modulus = 20e6
+    poisson = 0.3
+    density = 2000.0
 
     def scene(self) -> str:
         """Return a strip of it that cannot move sideways, glued lift on lift."""
@@ -135,7 +131,6 @@ class Embankment(SceneCase):
         return with_cover(super().formulation(scene, name), size=self.height)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare how far each top comes down by later lifts, and with its own placing."""
         nu, n, h = self.poisson, self.lifts, self.height
         confined = self.modulus * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
         weight = self.density * text.G

@@ -1,7 +1,6 @@
 """What is taken away: in either order, from under a beam, off a stack."""
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,14 +12,13 @@ if TYPE_CHECKING:
     from nmm.stepping.run import Run
 
 
-@dataclass(frozen=True)
 class TwoHoles(SceneCase):
     """Two holes are dug in elastic ground under stress: which is first leaves no trace."""
 
-    name: ClassVar[str] = "ST4 order"
-    title: ClassVar[str] = "Two holes dug in either order"
-    source: ClassVar[str] = "Superposition: linear ground knows no order"
-    formulations: ClassVar[tuple[str, ...]] = ("quads",)
+    name = "ST4 order"
+    title = "Two holes dug in either order"
+    source = "Superposition: linear ground knows no order"
+    formulations = ("quads",)
 
     def scene(self) -> str:
         """Return the ground whose first hole is the left one."""
@@ -53,7 +51,6 @@ class TwoHoles(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare displacements and stresses with those of the other order."""
         # A second run, which no other case needs.
         from nmm.scene import parse_scene
         from nmm.stepping.run import run as run_scene
@@ -72,16 +69,15 @@ class TwoHoles(SceneCase):
         }
 
 
-@dataclass(frozen=True)
 class MiddleSupport(SceneCase):
     """A beam of two spans stands on three supports; then the middle one is taken away."""
 
-    name: ClassVar[str] = "ST4 beam"
-    title: ClassVar[str] = "A beam loses its middle support"
-    source: ClassVar[str] = "Slender beams: 3/8, 5/4, 3/8 of q l, then 1, 0, 1"
-    formulations: ClassVar[tuple[str, ...]] = ("quads degree 2",)
-    span: ClassVar[float] = 20.0
-    load: ClassVar[float] = 1e3
+    name = "ST4 beam"
+    title = "A beam loses its middle support"
+    source = "Slender beams: 3/8, 5/4, 3/8 of q l, then 1, 0, 1"
+    formulations = ("quads degree 2",)
+    span = 20.0
+    load = 1e3
 
     def scene(self) -> str:
         """Return the beam, 1 m high, on its three points."""
@@ -105,7 +101,6 @@ class MiddleSupport(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the forces of the supports, over a span's load."""
         whole, checks = self.load * self.span, {}
         three, two = ends(run, 2)
         shear = "a beam of two spans gives by shear as well, of order (h / l)^2"
@@ -121,15 +116,14 @@ class MiddleSupport(SceneCase):
         return checks
 
 
-@dataclass(frozen=True)
 class UnloadedStack(SceneCase):
     """The two highest of five blocks are lifted off: what stands carries so much less."""
 
-    name: ClassVar[str] = "ST4 stack"
-    title: ClassVar[str] = "Blocks lifted off a stack"
-    source: ClassVar[str] = "Balance of weights"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "rigid", "quads")
-    density: ClassVar[float] = 2600.0
+    name = "ST4 stack"
+    title = "Blocks lifted off a stack"
+    source = "Balance of weights"
+    formulations = ("dda", "rigid", "quads")
+    density = 2600.0
 
     def scene(self) -> str:
         """Return five cubes, the lowest held, in two stages."""
@@ -146,7 +140,6 @@ class UnloadedStack(SceneCase):
         )
 
     def measure(self, run: "Run") -> Checks:
-        """Compare what the ground carries before and after, in blocks."""
         carried = run.history["reaction:ground:y"] / (self.density * text.G)
         return {
             f"blocks of the stage of {n}": Check(float(carried[row]), n, 1e-8, "as solved")

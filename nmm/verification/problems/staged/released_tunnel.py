@@ -1,7 +1,6 @@
 """A tunnel whose wall is released in part before it is lined."""
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -52,17 +51,16 @@ def ring_pressure() -> float:
     return (1 - SHARE) * PRESSURE * ring / (ring + ground)
 
 
-@dataclass(frozen=True)
 class ReleasedTunnel(SceneCase):
     """Half of what the core exerted is gone as the ring is put in, free of stress; then the rest.
 
     Ground beyond the disc is a bed of ``2 G / r``, exact for the same pressure all round.
     """
 
-    name: ClassVar[str] = "ST1c"
-    title: ClassVar[str] = "A tunnel lined after half of its release"
-    source: ClassVar[str] = "Lame 1852: ring and ground as springs; Panet and Guenot 1982: shares"
-    formulations: ClassVar[tuple[str, ...]] = ("quads",)
+    name = "ST1c"
+    title = "A tunnel lined after half of its release"
+    source = "Lame 1852: ring and ground as springs; Panet and Guenot 1982: shares"
+    formulations = ("quads",)
 
     def scene(self) -> str:
         """Return the ground with its core, without it, and with the ring in its place."""
@@ -100,7 +98,6 @@ class ReleasedTunnel(SceneCase):
         return with_cover(super().formulation(scene, name), size=0.5)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare the ways of the wall, and the mean hoop stress of the ring."""
         _, dug, lined = ends(run, 3)
         out = 1e3 * way(run, "wall")[:, 0]
         behind, free = RADIUS / (RADIUS + BEHIND), PRESSURE / 2 / shear_modulus() * RADIUS

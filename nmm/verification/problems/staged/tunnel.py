@@ -1,7 +1,6 @@
 """A round tunnel that is excavated in stressed elastic ground."""
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -52,14 +51,13 @@ def wall() -> Floats:
     return np.asarray(radius * np.stack([np.cos(angle), np.sin(angle)], axis=1))
 
 
-@dataclass(frozen=True)
 class Tunnel(SceneCase):
     """The core leaves a square of ground whose rim is led as the ground beyond would lead it."""
 
-    name: ClassVar[str] = "ST1"
-    title: ClassVar[str] = "A tunnel excavated in ground under unequal stresses"
-    source: ClassVar[str] = "Kirsch 1898: what excavation adds to the stressed ground"
-    formulations: ClassVar[tuple[str, ...]] = ("manifold", "quads")
+    name = "ST1"
+    title = "A tunnel excavated in ground under unequal stresses"
+    source = "Kirsch 1898: what excavation adds to the stressed ground"
+    formulations = ("manifold", "quads")
 
     def scene(self) -> str:
         """Return the ground with its core, in place, and without."""
@@ -97,7 +95,6 @@ class Tunnel(SceneCase):
         return with_cover(super().formulation(scene, name), size=0.4)
 
     def measure(self, run: "Run") -> Checks:
-        """Compare ways along and across the radius, over the largest."""
         largest = float(np.abs(kirsch(2.0, 90.0)).max())
         checks = {}
         for name, (radius, degrees) in POINTS.items():
