@@ -170,7 +170,15 @@ class Case(ABC):
 
 
 class SceneCase(Case):
-    """Benchmark that is the run of one scene."""
+    """Benchmark that is the run of one scene.
+
+    Attributes
+    ----------
+    cover
+        Values in ``[formulation.cover]`` under every formulation, such as the size.
+    """
+
+    cover: ClassVar[Mapping[str, Any]] = {}
 
     @abstractmethod
     def scene(self) -> str:
@@ -199,9 +207,9 @@ class SceneCase(Case):
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return the scene's own formulation with the choices called ``name``."""
-        from nmm.verification.formulations import chosen
+        from nmm.verification.formulations import chosen, with_cover
 
-        return chosen(name, scene.formulation)
+        return with_cover(chosen(name, scene.formulation), **self.cover)
 
     def sketch(self, path: "Path") -> bool:
         """Draw blocks, supports and loads of the scene."""

@@ -77,11 +77,7 @@ class ReinforcedBeam(SceneCase):
     name = "C1b"
     title = "Concrete beam of 455 blocks with a row of steel blocks"
     source = "Failure load of the plain beam; composite section with plane sections"
-
-    @property
-    def slow(self) -> bool:
-        """A hundred joints break one after the other."""
-        return True
+    slow = True
 
     def scene(self) -> str:
         """Return the scene of the example, which follows the load bond by bond."""

@@ -33,6 +33,7 @@ class BranchedCrack(Case):
     branch: float = 0.5
     skew: bool = False
     turn: float = 0.0
+    slow = True
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
@@ -45,11 +46,6 @@ class BranchedCrack(Case):
         said = f"{self.degrees:g} degrees, branches of {self.branch:g}"
         turned = f", turned by {self.turn:g} rad" if self.turn else ""
         return said + ", with shear" * self.skew + turned
-
-    @property
-    def slow(self) -> bool:
-        """Seconds each."""
-        return True
 
     def checks(self, formulation: str) -> Checks:
         angles = np.radians([180.0, self.degrees, -self.degrees])

@@ -22,11 +22,7 @@ class GrowingCrack(SceneCase):
     formulations = ("dda",)
     modulus = 1.0
     poisson = 0.3
-
-    @property
-    def slow(self) -> bool:
-        """Tens of models one after the other."""
-        return True
+    slow = True
 
     @property
     @abstractmethod

@@ -28,11 +28,7 @@ class StruckCrack(SceneCase):
     density = 8000.0
     stress = 500e6
     height = 2.0
-
-    @property
-    def slow(self) -> bool:
-        """A hundred steps of thousands of unknowns."""
-        return True
+    slow = True
 
     @property
     def fast(self) -> float:

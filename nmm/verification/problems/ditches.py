@@ -54,16 +54,12 @@ class FilledDitch(SceneCase):
     before: float = 2.0
     after: float = 3.0
     label = "from {0.before:g} to {0.after:g} m"
+    slow = True
 
     @classmethod
     def variants(cls) -> "tuple[FilledDitch, ...]":
         """A ditch that fills, and one that is emptied."""
         return (cls(), cls(3.0, 2.0))
-
-    @property
-    def slow(self) -> bool:
-        """Some ten seconds."""
-        return True
 
     @property
     def duration(self) -> float:

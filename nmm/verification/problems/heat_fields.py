@@ -9,13 +9,10 @@ from nmm.study.samples import fields
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, limit
 from nmm.verification.continuum import quarter
-from nmm.verification.formulations import with_cover
 from nmm.verification.problems.heat_strain import GLUE, ROUNDING, given, pinned, rollers, warm
 from nmm.verification.reading import last_way
 
 if TYPE_CHECKING:
-    from nmm.formulation import Formulation
-    from nmm.scene import Scene
     from nmm.stepping.run import Run
 
 
@@ -30,6 +27,7 @@ class HotCore(SceneCase):
     plane: str = "stress"
     parameters: ClassVar = {"plane": ("stress", "strain")}
     label = "plane {0.plane}"
+    cover: ClassVar = {"size": 0.25}
 
     def scene(self) -> str:
         """Return a quarter: 60 K in the core."""
@@ -49,10 +47,6 @@ class HotCore(SceneCase):
                 text.monitor("rim", (2.0, 0.0), "ring"),
             ],
         )
-
-    def formulation(self, scene: "Scene", name: str) -> "Formulation":
-        """Return the formulation with cells of half the core."""
-        return with_cover(super().formulation(scene, name), size=0.25)
 
     def measure(self, run: "Run") -> Checks:
         factor = 1.0 if self.plane == "stress" else 1 / 0.7

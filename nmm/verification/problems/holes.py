@@ -122,11 +122,7 @@ class HoleRates(HoledPlate):
     title = "Plate with a hole, orders of convergence"
     formulations = ("finite elements", "manifold", "manifold degree 2")
     plane: str = "strain"
-
-    @property
-    def slow(self) -> bool:
-        """Ten seconds."""
-        return True
+    slow = True
 
     def checks(self, formulation: str) -> Checks:
         """Refine the covers three times."""

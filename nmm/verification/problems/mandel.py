@@ -3,19 +3,16 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 
 from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds, limit
-from nmm.verification.formulations import with_cover
 from nmm.verification.problems.seepage import pressure
 
 if TYPE_CHECKING:
-    from nmm.formulation import Formulation
-    from nmm.scene import Scene
     from nmm.stepping.run import Run
 
 HALF, HIGH = 1.0, 1.0
@@ -115,6 +112,7 @@ class SqueezedSoil(SceneCase):
     steps: int = 40
     time: float = 0.08
     label = "{0.steps} steps to c t / a^2 = {0.time:g}"
+    cover: ClassVar = {"size": 0.1}
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
@@ -157,10 +155,6 @@ class SqueezedSoil(SceneCase):
                 text.monitor("edge", (a, b / 2), "soil"),
             ],
         )
-
-    def formulation(self, scene: "Scene", name: str) -> "Formulation":
-        """Return cells of a tenth of the half width."""
-        return with_cover(super().formulation(scene, name), size=0.1)
 
     def measure(self, run: "Run") -> Checks:
         exact = Mandel()

@@ -114,11 +114,7 @@ class WavesOnQuads(Waves):
     name = "A8 quads"
     title = "Smooth manufactured solution on quads, orders of convergence"
     formulations = ("bilinear quads", "quads")
-
-    @property
-    def slow(self) -> bool:
-        """Ten seconds."""
-        return True
+    slow = True
 
 
 class WavesOfDegreeTwo(Waves):
@@ -127,8 +123,4 @@ class WavesOfDegreeTwo(Waves):
     name = "A8 quadratic"
     title = "Smooth manufactured solution, quadratic covers, orders of convergence"
     formulations = ("manifold degree 2", "quads degree 2")
-
-    @property
-    def slow(self) -> bool:
-        """A quarter of a minute each."""
-        return True
+    slow = True

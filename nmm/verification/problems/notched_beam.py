@@ -33,16 +33,12 @@ class NotchedBeam(SceneCase):
     mouth = 1e-6
     softening: str = "linear"
     label = "{0.softening} softening"
+    slow = True
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return both softening curves."""
         return [cls(curve) for curve in cls.peaks]
-
-    @property
-    def slow(self) -> bool:
-        """Twenty steps in which damage is found by turns."""
-        return True
 
     def scene(self) -> str:
         """Return both halves of the beam, bonded over the notch, which opens by a hair."""

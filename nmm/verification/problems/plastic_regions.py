@@ -38,16 +38,12 @@ class PlasticCylinder(SceneCase):
     sides = 32
     parameters: ClassVar = {"law": ("von_mises", "mohr_coulomb")}
     label = "{0.law}"
+    slow = True
 
     @property
     def poisson(self) -> float:
         """Poisson's ratio."""
         return 0.49 if self.law == "von_mises" else 0.3
-
-    @property
-    def slow(self) -> bool:
-        """A quarter of a minute."""
-        return True
 
     def scene(self) -> str:
         """Return a quarter, a = 1, b = 2; the load factor is the pressure over k = 1 Pa."""

@@ -102,11 +102,7 @@ class PlasticBeam(SceneCase):
     source = "M = Y h^2 / 4 = 1.5 M_yield; curvature M_y / (E I) / sqrt(3 - 2 M / M_y)"
     formulations = ("manifold", "manifold degree 2", "quads degree 2")
     lever = 6.0
-
-    @property
-    def slow(self) -> bool:
-        """Half a minute."""
-        return True
+    slow = True
 
     def formulation(self, scene: "Scene", name: str) -> Formulation:
         """Return cells of a quarter of the depth, of half of it for functions of degree 2."""

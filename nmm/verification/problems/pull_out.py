@@ -43,6 +43,7 @@ class AnchorPullOut(SceneCase):
     blocks: int = 704
     mean: float = 13.1e3
     deviation: float = 0.8e3
+    slow = True
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
@@ -58,11 +59,6 @@ class AnchorPullOut(SceneCase):
     def variant(self) -> str:
         """How blocks are joined, how many there are, and what holds the plate's sides."""
         return f"{self.way}, {self.blocks} blocks, k = {'infinity' if self.sides else '0'}"
-
-    @property
-    def slow(self) -> bool:
-        """Some twenty joints break one after the other, in ten seconds and more."""
-        return True
 
     def scene(self) -> str:
         """Return the scene of the example, with blocks and sides of its own."""

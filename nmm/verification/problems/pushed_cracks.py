@@ -36,6 +36,7 @@ class PushedCrack(SceneCase):
     acts: str = "water"
     inclined: float = 90.0
     friction: float = 0.3
+    slow = True
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
@@ -48,11 +49,6 @@ class PushedCrack(SceneCase):
         """What acts."""
         how = f" at {self.inclined:g} degrees, friction {self.friction:g}"
         return self.acts + how * (self.acts == "pressed shut")
-
-    @property
-    def slow(self) -> bool:
-        """Some seconds each."""
-        return True
 
     def scene(self) -> str:
         """Return the plate with what acts on it."""

@@ -160,6 +160,7 @@ class SeepingDam(SceneCase):
     name, title = "WA12", "Seepage with a free surface"
     source = "Dupuit's discharge, exact by Charny (1951): k (h1^2 - h2^2) / (2 L)"
     formulations = ("manifold", "manifold degree 2", "quads", "splines")
+    cover: ClassVar = {"size": 1.0}
 
     def scene(self) -> str:
         """Return a dam 8 m long under 10 m of water on one side and 2 m on the other."""
@@ -174,10 +175,6 @@ class SeepingDam(SceneCase):
                 head("down", np.array([8, 0]), np.array([8, 12]), 2.0),
             ],
         )
-
-    def formulation(self, scene: "Scene", name: str) -> "Formulation":
-        """Return the formulation with cells of a metre."""
-        return with_cover(super().formulation(scene, name), size=1.0)
 
     def measure(self, run: "Run") -> Checks:
         flow, out = (run.history[f"seepage:taken:{name}"][-1] for name in ("up", "down"))

@@ -1,16 +1,13 @@
 """A pulse of pressure that comes back as tension, and what it breaks off a bar."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase
-from nmm.verification.formulations import with_cover
 
 if TYPE_CHECKING:
-    from nmm.formulation import Formulation
-    from nmm.scene import Scene
     from nmm.stepping.run import Run
 
 
@@ -28,6 +25,7 @@ class SpalledBar(SceneCase):
     long = 4.0
     high = 0.1
     pressure = 2e-3
+    cover: ClassVar = {"size": 0.025}
 
     def scene(self) -> str:
         """Return the bar with E = rho = 1, free but for its load."""
@@ -47,10 +45,6 @@ class SpalledBar(SceneCase):
                 text.monitor("end", (self.long - 0.25, self.high / 2), "bar"),
             ],
         )
-
-    def formulation(self, scene: "Scene", name: str) -> "Formulation":
-        """Return cells of a twentieth of the spall."""
-        return with_cover(super().formulation(scene, name), size=0.025)
 
     def measure(self, run: "Run") -> Checks:
         """Compare when and where the bar breaks, how fast the spall is, and its impulse.

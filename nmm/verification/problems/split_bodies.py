@@ -33,6 +33,7 @@ class CutBar(SceneCase):
     formulations = ("bilinear quads", "finite elements")
     stress = 1e-3
     step = 0.02
+    cover: ClassVar = {"size": 0.05}
 
     def scene(self) -> str:
         """Return a bar of 2 m with E = rho = 1, whose strength is just below its stress."""
@@ -52,10 +53,6 @@ class CutBar(SceneCase):
                 text.monitor("other", (1.0001, 0.05), "bar"),
             ],
         )
-
-    def formulation(self, scene: "Scene", name: str) -> "Formulation":
-        """Return cells of a twentieth of a half."""
-        return with_cover(super().formulation(scene, name), size=0.05)
 
     def measure(self, run: "Run") -> Checks:
         history = run.history
@@ -90,16 +87,12 @@ class SplitDisc(SceneCase):
     size = 0.1
     # A cut-off alone, and with the envelope, which is nearer.
     parameters: ClassVar = {"shear": (False, True)}
+    slow = True
 
     @property
     def variant(self) -> str:
         """See `Case.variant`."""
         return "with shear" if self.shear else "by tension alone"
-
-    @property
-    def slow(self) -> bool:
-        """See `Case.slow`."""
-        return True
 
     def scene(self) -> str:
         """Return a disc of 0.1 m, 0.1 m thick, pressed at two corners of its 72."""

@@ -137,11 +137,7 @@ class LinearHertz(ExactHertz):
 
     name = "B21 degree 1"
     formulations = ("manifold", "quads")
-
-    @property
-    def slow(self) -> bool:
-        """A run takes 5 to 80 s."""
-        return True
+    slow = True
 
 
 class QuadraticHertz(LinearHertz):
@@ -216,11 +212,7 @@ class FinePunch(ExactPunch):
     name = "B22 fine"
     formulations = ("quads",)
     parameters: ClassVar = {"enforcement": ("augmented",)}
-
-    @property
-    def slow(self) -> bool:
-        """A run takes half a minute."""
-        return True
+    slow = True
 
 
 def _graded(formulation: "Formulation", **changes: Any) -> "Formulation":

@@ -172,11 +172,7 @@ class PressurisedCrack(SceneCase):
     name, title = "WA7", "Crack under the pressure of its water"
     source = "Griffith (1921), Sneddon (1946): w = 4 (1 - nu^2) p a / E, work p V / 2 = 589.04862 J"
     formulations = ("manifold",)
-
-    @property
-    def slow(self) -> bool:
-        """It has 12,000 unknowns."""
-        return True
+    slow = True
 
     def scene(self) -> str:
         """Return a crack of 2 m under 2 MPa in a plate of 20 m."""

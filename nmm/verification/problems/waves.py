@@ -1,17 +1,14 @@
 """Waves: a bar that is pulled at one end."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase
-from nmm.verification.formulations import with_cover
 from nmm.verification.reading import way
 
 if TYPE_CHECKING:
-    from nmm.formulation import Formulation
-    from nmm.scene import Scene
     from nmm.stepping.run import Run
 
 
@@ -27,6 +24,7 @@ class BarWave(SceneCase):
     formulations = ("finite elements", "manifold", "bilinear quads", "quads", "splines")
     length = 10.0
     stress = 1e-3
+    cover: ClassVar = {"size": 0.2, "angle": 0.3}
 
     def scene(self) -> str:
         """Return the bar, held at its left end."""
@@ -45,10 +43,6 @@ class BarWave(SceneCase):
                 text.monitor("end", (long, high / 2), "bar"),
             ],
         )
-
-    def formulation(self, scene: "Scene", name: str) -> "Formulation":
-        """Return meshes turned against the bar, 50 cells along it."""
-        return with_cover(super().formulation(scene, name), size=0.2, angle=0.3)
 
     def measure(self, run: "Run") -> Checks:
         time, middle = run.history["time"], way(run, "middle")[:, 0]

@@ -31,11 +31,7 @@ class BentApart(SceneCase):
     """Runs of some thirty steps of nets of degree 2."""
 
     formulations = ("dda",)
-
-    @property
-    def slow(self) -> bool:
-        """Whether it takes more than a few seconds."""
-        return True
+    slow = True
 
 
 def beam(length: float, law: str, net: str, drive: str = "", own: str = "") -> str:

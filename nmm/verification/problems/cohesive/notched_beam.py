@@ -31,6 +31,7 @@ class CohesiveBeam(SceneCase):
     angle: float | None = None
     # A drawn plane, and zones in nets that are turned.
     parameters: ClassVar = {"angle": (None, 0.0, 17.0, 40.0)}
+    slow = True
 
     @property
     def variant(self) -> str:
@@ -38,11 +39,6 @@ class CohesiveBeam(SceneCase):
         if self.angle is None:
             return "drawn plane, net at 17 degrees"
         return f"zone that grows, net at {self.angle:g} degrees"
-
-    @property
-    def slow(self) -> bool:
-        """Twenty steps of a path."""
-        return True
 
     def scene(self) -> str:
         """Return the beam with notch, plane or zone, and the control of its mouth."""

@@ -94,11 +94,7 @@ class LongFlight(SceneCase):
     title = "Energy and angular momentum over two thousand steps"
     source = "E = rho a^4 omega^2 / 12, L = rho a^4 omega / 6"
     steps = 2_000
-
-    @property
-    def slow(self) -> bool:
-        """Half a minute."""
-        return True
+    slow = True
 
     def scene(self) -> str:
         """Return the spun square with steps of half a swing."""

@@ -1,18 +1,15 @@
 """Factors of safety by strength reduction: a slope of soil, and wedges of rock on a plane."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from nmm.formulation import Formulation
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
-from nmm.verification.formulations import with_cover
 from nmm.verification.text import G
 
 if TYPE_CHECKING:
-    from nmm.scene import Scene
     from nmm.stepping.run import Run
 
 WEIGHT = 20e3
@@ -33,15 +30,8 @@ class SoilSlope(SceneCase):
         "associated flow 1.3978"
     )
     formulations = ("quads degree 2",)
-
-    @property
-    def slow(self) -> bool:
-        """Half a minute."""
-        return True
-
-    def formulation(self, scene: "Scene", name: str) -> Formulation:
-        """Return cells of an eighth of the height."""
-        return with_cover(super().formulation(scene, name), size=1.25)
+    slow = True
+    cover: ClassVar = {"size": 1.25}
 
     def scene(self) -> str:
         """Return the slope, 10 m high, its crest 22 m wide."""

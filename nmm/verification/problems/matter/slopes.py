@@ -168,11 +168,7 @@ class ToppledSlope(LeaningColumns):
     needed = 0.7855
     # Two frictions: the factor of their tangents differs, the friction needed does not.
     parameters: ClassVar = {"friction": (45.0, 50.0)}
-
-    @property
-    def slow(self) -> bool:
-        """Ten seconds."""
-        return True
+    slow = True
 
     def scene(self) -> str:
         """Return the columns, whose factor of safety is sought."""

@@ -9,13 +9,10 @@ import numpy as np
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
 from nmm.verification.continuum import quarter
-from nmm.verification.formulations import with_cover
 from nmm.verification.problems.plasticity import pull, roller
 from nmm.verification.reading import converged, way
 
 if TYPE_CHECKING:
-    from nmm.formulation import Formulation
-    from nmm.scene import Scene
     from nmm.stepping.run import Run
 
 PRESSURE, SHEAR, BULK, RIM = 30.0, 2800.0, 3900.0, 3.0
@@ -41,10 +38,7 @@ class FlowingTunnel(SceneCase):
     # Ground that keeps its volume as it flows, and one that dilates by its friction.
     parameters: ClassVar = {"dilation": WALLS}
     label = "psi {0.dilation}"
-
-    def formulation(self, scene: "Scene", name: str) -> "Formulation":
-        """Return cells of a quarter of the radius."""
-        return with_cover(super().formulation(scene, name), size=0.25)
+    cover: ClassVar = {"size": 0.25}
 
     def scene(self) -> str:
         """Return a quarter in MPa, a = 1 m, under the same stress from all three sides."""

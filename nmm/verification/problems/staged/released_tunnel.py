@@ -1,6 +1,6 @@
 """A tunnel whose wall is released in part before it is lined."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -8,13 +8,10 @@ from integration.arrays import Floats
 from integration.polygons import centroids
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase
-from nmm.verification.formulations import with_cover
 from nmm.verification.problems.staged.columns import ends
 from nmm.verification.reading import way
 
 if TYPE_CHECKING:
-    from nmm.formulation import Formulation
-    from nmm.scene import Scene
     from nmm.stepping.run import Run
 
 RADIUS, THICK, EXTENT, CORNERS = 3.0, 0.3, 12.0, 96
@@ -61,6 +58,7 @@ class ReleasedTunnel(SceneCase):
     title = "A tunnel lined after half of its release"
     source = "Lame 1852: ring and ground as springs; Panet and Guenot 1982: shares"
     formulations = ("quads",)
+    cover: ClassVar = {"size": 0.5}
 
     def scene(self) -> str:
         """Return the ground with its core, without it, and with the ring in its place."""
@@ -92,10 +90,6 @@ class ReleasedTunnel(SceneCase):
             text.monitor("wall", (RADIUS + BEHIND, 0.0), "ground"),
         ]
         return text.scene('title = "Released tunnel"\nplane = "strain"\n', tables)
-
-    def formulation(self, scene: "Scene", name: str) -> "Formulation":
-        """Return cells of a sixth of the radius."""
-        return with_cover(super().formulation(scene, name), size=0.5)
 
     def measure(self, run: "Run") -> Checks:
         _, dug, lined = ends(run, 3)

@@ -1,18 +1,15 @@
 """A round tunnel that is excavated in stressed elastic ground."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase
-from nmm.verification.formulations import with_cover
 from nmm.verification.reading import way
 
 if TYPE_CHECKING:
-    from nmm.formulation import Formulation
-    from nmm.scene import Scene
     from nmm.stepping.run import Run
 
 RADIUS, EXTENT, CORNERS = 2.0, 8.0, 96
@@ -58,6 +55,7 @@ class Tunnel(SceneCase):
     title = "A tunnel excavated in ground under unequal stresses"
     source = "Kirsch 1898: what excavation adds to the stressed ground"
     formulations = ("manifold", "quads")
+    cover: ClassVar = {"size": 0.4}
 
     def scene(self) -> str:
         """Return the ground with its core, in place, and without."""
@@ -89,10 +87,6 @@ class Tunnel(SceneCase):
             r = radius + 1e-3
             tables.append(text.monitor(name, (r * np.cos(angle), r * np.sin(angle)), "ground"))
         return text.scene('title = "Tunnel"\nplane = "strain"\n', tables)
-
-    def formulation(self, scene: "Scene", name: str) -> "Formulation":
-        """Return cells of a fifth of the radius."""
-        return with_cover(super().formulation(scene, name), size=0.4)
 
     def measure(self, run: "Run") -> Checks:
         largest = float(np.abs(kirsch(2.0, 90.0)).max())
