@@ -9,10 +9,10 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.errors import FormulationError
 from nmm.materials.base import History, Response
-from nmm.materials.cone_return import SmoothCone, cone_return
 from nmm.materials.frictional import Frictional
-from nmm.materials.planes import Planes, falling
 from nmm.materials.plasticity import inelastic
+from nmm.materials.returns.cone_return import SmoothCone, cone_return
+from nmm.materials.returns.planes import ActingPlanes, falling
 
 MATCHES = ("plane_strain", "compression", "extension")
 
@@ -51,7 +51,7 @@ class DruckerPragerPlasticity(Frictional):
         return float(6 * np.sin(angle) / below), float(6 * np.cos(angle) / below)
 
     @property
-    def sets(self) -> Sequence[Planes]:
+    def sets(self) -> Sequence[ActingPlanes]:
         """See `Frictional.sets`."""
         return self._cone.sets
 
@@ -62,12 +62,15 @@ class DruckerPragerPlasticity(Frictional):
 
     @cached_property
     def _cone(self) -> SmoothCone:
-        (eta, xi), (flow, _) = self.slopes(self.friction_angle), self.slopes(self.dilation_angle)
+        ends = np.array([[self.slopes(angle) for angle in end] for end in self.angles])
+        eta, xi = ends[0, 0]
+        slopes = np.stack([np.ones((2, 2)), ends[:, :, 0]], axis=2)
+        slopes *= (xi / ends[:, 0, 1])[:, None, None]
         apex = xi * self.cohesion / eta if eta > 0 else np.inf
         cut = np.inf if self.tensile_strength is None else self.tensile_strength
         strength = np.array([xi * self.cohesion, min(cut, apex)])
         return SmoothCone(
             self.young_modulus / 2 / (1 + self.poisson_ratio),
             self.young_modulus / 3 / (1 - 2 * self.poisson_ratio),
-            *(eta, flow, strength, falling(strength, self.fall)),
+            *(slopes, strength, falling(strength, self.fall)),
         )

@@ -10,8 +10,8 @@ from integration.arrays import Floats
 from nmm.errors import Fault, FormulationError
 from nmm.materials.base import History, Response
 from nmm.materials.crack_band import SofteningPlasticity, check_residual
-from nmm.materials.planes import Planes, ReturnedStress, StrengthLoss, largest_cell
 from nmm.materials.plasticity import flowed, grown
+from nmm.materials.returns.planes import ActingPlanes, ReturnedStress, StrengthLoss, largest_cell
 
 
 @dataclass(frozen=True)
@@ -31,13 +31,15 @@ class Frictional(SofteningPlasticity):
         what that and friction take; None is no softening.
     residual_cohesion
         Cohesion that is left (Pa); of the tensile strength, or of the apex, the same share is.
+    residual_friction_angle, residual_dilation_angle
+        Angles that are left with it (rad); None stays.
 
     Notes
     -----
     Internal variables: ``plastic_strain`` (4: xx, yy, 2 xy, zz), ``accumulated_plastic_strain``
     (the sum of ``sqrt(2/3 |de|^2)`` of its deviator), ``stress_zz`` (Pa), and where it softens
-    ``softened``, the share of the fall that is done (`nmm.materials.planes`). Where the angles
-    differ the tangent is not symmetric.
+    ``softened``, the share of the fall that is done (`nmm.materials.returns.planes`). Where the
+    angles differ, or fall, the tangent is not symmetric.
     """
 
     cohesion: float
@@ -45,6 +47,8 @@ class Frictional(SofteningPlasticity):
     dilation_angle: float = 0.0
     tensile_strength: float | None = None
     residual_cohesion: float = field(default=0.0, kw_only=True)
+    residual_friction_angle: float | None = field(default=None, kw_only=True)
+    residual_dilation_angle: float | None = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
         if not self.cohesion >= 0:
@@ -83,10 +87,41 @@ class Frictional(SofteningPlasticity):
             )
         left = "residual_cohesion", self.residual_cohesion
         check_residual(energy, left, self.cohesion, "a cohesion from 0 to below that")
+        (friction, dilation), (last, swells) = self.angles
+        for name, angle in (("friction", friction), ("dilation", dilation)):
+            self._check_angle(f"residual_{name}_angle", angle)
+        if swells > last:
+            raise FormulationError(
+                f"residual_dilation_angle: {swells:.6g}: expected an angle from 0 to the residual "
+                f"friction angle of {last:.6g} rad: beyond it flow would give energy: lower it"
+            )
+
+    def _check_angle(self, name: str, most: float) -> None:
+        """Refuse an angle that is left, by name, if nothing falls or it is more than ``most``."""
+        left = getattr(self, name)
+        if left is None:
+            return
+        if self.softening_energy is None:
+            raise FormulationError(
+                f"{name}: {left}: expected a law that softens: add softening_energy"
+            )
+        if not 0 <= left <= most:
+            raise FormulationError(
+                f"{name}: {left}: expected an angle from 0 to that which it falls from, "
+                f"{most:.6g} rad: lower it"
+            )
+
+    @property
+    def angles(self) -> Floats:
+        """Angles (2, 2) of friction and of dilation, at first and where all of the fall is done."""
+        first = self.friction_angle, self.dilation_angle
+        left = self.residual_friction_angle, self.residual_dilation_angle
+        last = [one if end is None else end for one, end in zip(first, left, strict=True)]
+        return np.array([first, last])
 
     @property
     @abstractmethod
-    def sets(self) -> Sequence[Planes]:
+    def sets(self) -> Sequence[ActingPlanes]:
         """Planes of the yield surface that act together."""
 
     @property
@@ -138,8 +173,8 @@ class Frictional(SofteningPlasticity):
 
     @property
     def symmetric(self) -> bool:
-        """Whether the angles are equal."""
-        return self.dilation_angle == self.friction_angle
+        """Whether the angles are equal and stay."""
+        return bool((self.angles == self.friction_angle).all())
 
     def stiffness(self, plane: str) -> Floats:
         """See `Law.stiffness`; plane stress is refused."""

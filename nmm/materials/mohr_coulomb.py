@@ -7,9 +7,9 @@ from functools import cached_property
 from integration.arrays import Floats
 from nmm.materials.base import History, Response
 from nmm.materials.frictional import Frictional
-from nmm.materials.planes import Planes
 from nmm.materials.plasticity import inelastic
-from nmm.materials.principal_return import Pyramid, principal_return
+from nmm.materials.returns.planes import ActingPlanes
+from nmm.materials.returns.principal_return import Pyramid, principal_return
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,7 @@ class MohrCoulombPlasticity(Frictional):
     """
 
     @property
-    def sets(self) -> Sequence[Planes]:
+    def sets(self) -> Sequence[ActingPlanes]:
         """See `Frictional.sets`."""
         return self._pyramid.sets
 
@@ -36,7 +36,7 @@ class MohrCoulombPlasticity(Frictional):
     def _pyramid(self) -> Pyramid:
         return Pyramid.of(
             (self.young_modulus, self.poisson_ratio),
-            (self.friction_angle, self.dilation_angle),
+            self.angles,
             (self.cohesion, self.tension),
             self.fall,
         )

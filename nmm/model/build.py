@@ -33,6 +33,7 @@ ROUNDING = 1e-9
 WHERE_GIVEN = (
     *("yield_stress", "hardening_modulus"),
     *("softening_energy", "residual_stress", "residual_cohesion"),
+    *("residual_friction_angle", "residual_dilation_angle"),
     *("cohesion", "friction_angle", "dilation_angle", "tensile_strength", "match"),
     *("viscosity", "delayed_modulus", "delayed_viscosity"),
     *("young_modulus_2", "shear_modulus", "axis_angle"),

@@ -155,6 +155,7 @@ CASES = Registry[type[Case]](
         "PL1": f"{_HOME}.matter.oedometer:Oedometer",
         "PL1c": f"{_HOME}.matter.returns:PyramidReturns",
         "PL6": f"{_HOME}.matter.returns:ConeReturns",
+        "PL7": f"{_HOME}.matter.softening_layer:SofteningLayer",
         "FK3": f"{_HOME}.finite.laws:DeformedMatter",
         "FK6": f"{_HOME}.finite.laws:TurnedMatter",
         "PL2": f"{_HOME}.matter.tunnel:FlowingTunnel",

@@ -74,6 +74,18 @@ class Material(Frozen):
         '"drucker_prager", and of tensile_strength the same share; 0 if not given',
         examples=["5 kPa"],
     )
+    residual_friction_angle: FrictionAngle | None = Field(
+        default=None,
+        description="a friction angle from 0 to friction_angle, rad, that softening leaves; it "
+        "stays if not given",
+        examples=["25 deg"],
+    )
+    residual_dilation_angle: FrictionAngle | None = Field(
+        default=None,
+        description="a dilation angle from 0 to dilation_angle and to residual_friction_angle, "
+        "rad, that softening leaves; it stays if not given",
+        examples=["0 deg"],
+    )
     cohesion: Stress | None = Field(
         default=None,
         ge=0,

@@ -199,9 +199,10 @@ def _weaker(part: Any, factor: float) -> Any:
     for name in FRICTION:
         if name in given:
             found[name] = atan(tan(given[name]) / factor)
-    if "dilation_angle" in given:
-        friction = [found[name] for name in FRICTION if name in found]
-        found["dilation_angle"] = min([given["dilation_angle"], *friction])
+    friction = [found[name] for name in FRICTION if name in found]
+    for name in ("dilation_angle", "residual_dilation_angle"):
+        if name in given:
+            found[name] = min([given[name], *friction])
     return part.model_copy(update=found)
 
 

@@ -18,6 +18,7 @@ HEIGHT, WIDTH, PUSH = 1.0, 0.25, 5e4
 CLAY = VonMisesPlasticity(E, NU, YIELD, softening_energy=ENERGY, residual_stress=1e5)
 PHI = np.pi / 6
 SOFT = {"softening_energy": ENERGY, "residual_cohesion": 1e5}
+TURNING = {**SOFT, "residual_friction_angle": PHI / 2, "residual_dilation_angle": 0.02}
 FRICTIONAL = {
     "pyramid": MohrCoulombPlasticity(E, NU, YIELD, PHI, 0.1, **SOFT),
     "associated pyramid": MohrCoulombPlasticity(E, NU, YIELD, PHI, PHI, **SOFT),
@@ -26,6 +27,18 @@ FRICTIONAL = {
     "cone": DruckerPragerPlasticity(E, NU, YIELD, PHI, 0.1, **SOFT),
     "associated cone": DruckerPragerPlasticity(E, NU, YIELD, PHI, PHI, **SOFT),
     "cut cone": DruckerPragerPlasticity(E, NU, YIELD, PHI, PHI, 0.6e6, **SOFT),
+    "turning pyramid": MohrCoulombPlasticity(E, NU, YIELD, PHI, 0.1, **TURNING),
+    "turning cut pyramid": MohrCoulombPlasticity(E, NU, YIELD, PHI, 0.1, 0.6e6, **TURNING),
+    "smoothed pyramid": MohrCoulombPlasticity(
+        E,
+        NU,
+        YIELD,
+        PHI,
+        PHI,
+        **{**TURNING, "residual_friction_angle": 0.0} | {"residual_dilation_angle": 0.0},
+    ),
+    "turning cone": DruckerPragerPlasticity(E, NU, YIELD, PHI, 0.1, **TURNING),
+    "turning cut cone": DruckerPragerPlasticity(E, NU, YIELD, PHI, 0.1, 0.6e6, **TURNING),
 }
 # Strength in shear without mean stress, and the lines that make a material of it.
 SHEARED = {
@@ -210,6 +223,57 @@ def test_ground_under_pressure_takes_its_energy_beyond_that_of_friction(kind):
     assert work - stress[-1] * flowed == pytest.approx(ENERGY / size, rel=1e-4)
 
 
+@pytest.mark.parametrize("done", [0.3, 0.7, 1.0])
+@pytest.mark.parametrize("law", [MohrCoulombPlasticity, DruckerPragerPlasticity])
+def test_friction_that_falls_follows_the_flow_under_pressure(law, done):
+    """Sheared at constant volume under 3 MPa, without dilation.
+
+    The strength ``t`` of a share ``D`` is ``a(D) t = xi0 c(D) + p b(D)``, a and b lines from 1 and
+    eta0 to ``xi0 / xir`` times 1 and etar; plastic shear grows by ``2 G_f a(D) / (h xi0 dc) dD``.
+    """
+    last, size, mean = PHI / 2, 0.05, 3e6
+    ground = law(E, NU, YIELD, PHI, **SOFT, residual_friction_angle=last)
+    pyramid = law is MohrCoulombPlasticity
+    root = np.sqrt(9 + 12 * np.tan([PHI, last]) ** 2)
+    eta = np.sin([PHI, last]) if pyramid else 3 * np.tan([PHI, last]) / root
+    xi = np.cos([PHI, last]) if pyramid else 3 / root
+    more = xi[0] / xi[1] - 1
+    friction = eta[0] + done * (xi[0] / xi[1] * eta[1] - eta[0])
+    shear = (xi[0] * (YIELD - done * 0.9 * YIELD) + mean * friction) / (1 + done * more)
+    flow = 2 * ENERGY / size / xi[0] / (0.9 * YIELD) * (done + more * done**2 / 2)
+    volume = -mean * 3 * (1 - 2 * NU) / E
+    history = {name: one[None].copy() for name, one in ground.variables("strain").items()}
+    history["plastic_strain"][0, 3] = -volume / 3
+    history["cell_size"] = np.array([[size]])
+    ways = np.linspace(0, shear / SHEAR + flow, 2001)[1:]
+    for way in ways:
+        found = ground.update(np.array([[volume / 3, volume / 3, way]]), history, "strain", 0.0)
+        history = {**found.history, "cell_size": history["cell_size"]}
+    # Steps are implicit, of order one: 1 / 2000 of the way, of which ways turn by a tenth.
+    assert history["softened"][0, 0] == pytest.approx(done, abs=2e-4)
+    assert found.stress[0, 2] == pytest.approx(shear, rel=2e-4)
+
+
+@pytest.mark.parametrize("law", [MohrCoulombPlasticity, DruckerPragerPlasticity])
+@pytest.mark.parametrize("cut", [None, 0.6e6])
+def test_ground_whose_friction_has_fallen_is_ground_of_what_is_left(law, cut):
+    random = np.random.default_rng(11)
+    ground = law(E, NU, YIELD, PHI, 0.1, cut, **TURNING)
+    tension = 0.1 * (YIELD / np.tan(PHI) if cut is None else cut)
+    if law is DruckerPragerPlasticity and cut is None:
+        (eta, xi) = ground.slopes(PHI)
+        tension = 0.1 * xi * YIELD / eta
+    left = law(E, NU, 0.1 * YIELD, PHI / 2, 0.02, tension)
+    strain = random.normal(size=(500, 3)) * 10 ** random.uniform(-4, -1, (500, 1))
+    start = {name: np.tile(one, (500, 1)) for name, one in ground.variables("strain").items()}
+    start["cell_size"] = np.full((500, 1), 0.05)
+    start["softened"][:] = 1.0
+    found = ground.update(strain, start, "strain", 0.0)
+    expected = left.update(strain, start, "strain", 0.0)
+    np.testing.assert_allclose(found.stress, expected.stress, atol=1e-2)
+    np.testing.assert_allclose(found.tangent, expected.tangent, atol=1e-6 * E)
+
+
 @pytest.mark.parametrize("name", FRICTIONAL)
 def test_ground_that_softens_keeps_what_every_law_does(name):
     check_law(FRICTIONAL[name], planes=("strain",), strains=(1e-3, 1e-2, 1.0))
@@ -220,7 +284,8 @@ def test_softening_without_end_is_no_softening(name):
     """With 1e9 times the energy strengths fall by 1e-9 and less."""
     random = np.random.default_rng(3)
     law = FRICTIONAL[name]
-    hard = replace(law, softening_energy=None, residual_cohesion=0.0)
+    none = {"residual_friction_angle": None, "residual_dilation_angle": None}
+    hard = replace(law, softening_energy=None, residual_cohesion=0.0, **none)
     soft = replace(law, softening_energy=1e12)
     strain = random.normal(size=(500, 3)) * 10 ** random.uniform(-4, -1, (500, 1))
     start = {name: np.tile(one, (500, 1)) for name, one in soft.variables("strain").items()}
@@ -240,6 +305,11 @@ def test_a_law_that_softens_keeps_what_every_law_does():
         {"softening_energy": 0.0},
         {"residual_cohesion": 1.0},
         {"softening_energy": 1.0, "residual_cohesion": YIELD},
+        {"residual_friction_angle": 0.1},
+        {"softening_energy": 1.0, "residual_friction_angle": 0.6},
+        {"softening_energy": 1.0, "residual_friction_angle": -0.1},
+        {"softening_energy": 1.0, "residual_dilation_angle": 0.1},
+        {"softening_energy": 1.0, "dilation_angle": 0.2, "residual_friction_angle": 0.1},
     ],
 )
 def test_ground_that_does_not_soften_is_refused(constants):

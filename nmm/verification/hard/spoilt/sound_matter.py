@@ -42,6 +42,7 @@ friction_angle = 0.3
 match = "compression"
 softening_energy = "5 kJ/m^2"
 residual_cohesion = 2e4
+residual_friction_angle = 0.2
 density = 2000
 [[blocks]]
 name = "c"

@@ -1,7 +1,7 @@
 """Return of Mohr-Coulomb plasticity in principal stresses, all points at once.
 
 Planes of the pyramid and of the tension cut-off are linear in principal stresses, sorted from the
-largest tension: stresses return to a plane, an edge or a corner (`nmm.materials.planes`).
+largest tension: stresses return to a plane, an edge or a corner (`nmm.materials.returns.planes`).
 """
 
 from dataclasses import dataclass, replace
@@ -11,14 +11,16 @@ from typing import Self
 import numpy as np
 
 from integration.arrays import Bools, Floats
-from nmm.materials.planes import (
+from nmm.materials.returns.planes import (
     BEYOND,
-    Planes,
+    ActingPlanes,
+    Normals,
     ReturnedStress,
     StrengthLoss,
     falling,
     return_to_planes,
 )
+from nmm.materials.returns.turning_planes import planes_between
 
 # In-plane principal stresses closer than this share of the largest have no direction.
 EQUAL = 1e-12
@@ -44,8 +46,9 @@ class Pyramid:
         (3, 3) principal stresses from principal strains (Pa).
     shear
         Shear modulus (Pa).
-    slope
-        ``sin phi``.
+    slopes
+        (2, 2) factors of ``s1 - s3`` and of ``s1 + s3``: 1 and ``sin phi``, where nothing and where
+        all of the fall is done. The last ones count in units of ``2 c cos phi`` of the first.
     strength
         (2,) ``2 c cos phi``, and the largest principal stress: the cut-off, or the apex; infinite
         where there is neither (Pa).
@@ -57,34 +60,37 @@ class Pyramid:
 
     elastic: Floats
     shear: float
-    slope: float
+    slopes: Floats
     strength: Floats
     falls: Floats
-    sets: tuple[Planes, ...]
+    sets: tuple[ActingPlanes, ...]
 
     @classmethod
     def of(
         cls,
         elasticity: tuple[float, float],
-        angles: tuple[float, float],
+        angles: Floats,
         strengths: tuple[float, float],
         fall: float,
     ) -> Self:
         """Return that of Young's modulus and Poisson's ratio, and of the strength.
 
-        ``angles`` are of friction and of dilation, ``strengths`` cohesion and the largest principal
-        stress, of which the share ``fall`` is lost in the end.
+        ``angles`` (2, 2) are of friction and of dilation, at first and in the end; ``strengths``
+        cohesion and the largest principal stress, of which the share ``fall`` is lost in the end.
         """
-        (e, nu), friction = elasticity, angles[0]
+        (e, nu), friction = elasticity, angles[:, 0]
         shear, lame = e / 2 / (1 + nu), e * nu / (1 + nu) / (1 - 2 * nu)
         elastic = lame * np.ones((3, 3)) + 2 * shear * np.eye(3)
-        strength = np.array([2 * strengths[0] * np.cos(friction), strengths[1]])
+        strength = np.array([2 * strengths[0] * np.cos(friction[0]), strengths[1]])
         falls = falling(strength, fall)
+        unit = np.cos(friction[0]) / np.cos(friction)
+        # Of both ends (2,): factors (2, 2) of the sums and differences, of yield and of flow.
+        slopes = unit[:, None, None] * np.stack([np.ones_like(angles), np.sin(angles)], axis=2)
         acting: list[StageLoads] = [(pairs, ()) for pairs in CONE]
         if np.isfinite(strength[1]):
             acting += CUT
-        sets = tuple(_planes(elastic, one, angles, (strength, falls)) for one in acting)
-        return cls(elastic, shear, float(np.sin(friction)), strength, falls, sets)
+        sets = tuple(_planes(elastic, one, slopes, (strength, falls)) for one in acting)
+        return cls(elastic, shear, slopes[:, 0], strength, falls, sets)
 
     @cached_property
     def whole(self) -> Floats:
@@ -108,7 +114,10 @@ class Pyramid:
         """
         first, last = _ends(stress)
         cone, tension = self.strength[:, None] - np.outer(self.falls, done)
-        over = (first - last) + (first + last) * self.slope - cone
+        (_, slope), turn = self.slopes[0], self.slopes[1] - self.slopes[0]
+        over = (first - last) + (first + last) * slope - cone
+        if turn.any():
+            over += done * ((first - last) * turn[0] + (first + last) * turn[1])
         return np.asarray(np.maximum(over, first - tension))
 
 
@@ -207,22 +216,29 @@ def _axes(angle: Floats) -> Floats:
 def _planes(
     elastic: Floats,
     acting: StageLoads,
-    angles: tuple[float, float],
+    slopes: Floats,
     strengths: tuple[Floats, Floats],
-) -> Planes:
-    """Return one set of planes; ``strengths`` are those at first and their falls."""
+) -> ActingPlanes:
+    """Return one set of planes; ``strengths`` are those at first and their falls.
+
+    ``slopes`` (2, 2, 2) are factors at both ends, of yield and of flow, of differences and sums.
+    """
+    pairs, cut = acting
+    kind = np.array([0] * len(pairs) + [1] * len(cut))
+    first, last = (_normals(acting, one) for one in slopes)
+    return planes_between(elastic, (first, last), strengths[0][kind], strengths[1][kind])
+
+
+def _normals(acting: StageLoads, slopes: Floats) -> Normals:
+    """Normals (p, 3) of yield and of flow, of slopes (2, 2) of both."""
     pairs, cut = acting
     tensile = [np.eye(3)[one] for one in cut]
-    normal, way = (
-        np.array([*(_plane(pair, float(np.sin(angle))) for pair in pairs), *tensile])
-        for angle in angles
-    )
-    kind = np.array([0] * len(pairs) + [1] * len(cut))
-    return Planes.of(elastic, (normal, way), strengths[0][kind], strengths[1][kind])
+    normal, way = (np.array([*(_plane(pair, one) for pair in pairs), *tensile]) for one in slopes)
+    return normal, way
 
 
-def _plane(pair: tuple[int, int], slope: float) -> Floats:
-    """Gradient (3,) of ``(si - sj) + (si + sj) slope``."""
+def _plane(pair: tuple[int, int], slopes: Floats) -> Floats:
+    """Gradient (3,) of ``(si - sj)`` and ``(si + sj)`` times their slopes (2,)."""
     found = np.zeros(3)
-    found[pair[0]], found[pair[1]] = 1 + slope, slope - 1
+    found[pair[0]], found[pair[1]] = slopes[1] + slopes[0], slopes[1] - slopes[0]
     return found

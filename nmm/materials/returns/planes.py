@@ -10,13 +10,13 @@ All strengths ``L`` fall with one share ``D`` from 0 to 1, ``L - D dL``, and ``D
 flow ``g`` along planes by ``dL . g h / 2 G``. Beyond what the last strengths take, flow to
 ``D = 1`` in a cell of size ``h`` then takes ``integral of (1 - D) dL . dg = G / h``, along
 whichever planes it goes: a band as wide as a cell takes ``G`` for its area (crack band; Bazant and
-Oh 1983).
+Oh 1983). Planes of friction that falls turn as well: `nmm.materials.returns.turning_planes`.
 """
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Self
+from typing import Protocol, Self
 
 import numpy as np
 
@@ -24,6 +24,8 @@ from integration.arrays import Bools, Floats, Ints
 
 # Share of the stresses by which rounding leaves a point beyond the yield surface: it is elastic.
 BEYOND = 1e-10
+Normals = tuple[Floats, Floats]
+"""Normals (p, d) of planes of yield, and the ways (p, d) along which they flow."""
 
 
 @dataclass(frozen=True)
@@ -51,9 +53,23 @@ class StrengthLoss:
         return replace(self, done=self.done[points], speed=self.speed[points])
 
 
+class ActingPlanes(Protocol):
+    """Planes that act together, standing or turning."""
+
+    @property
+    def eased(self) -> float:
+        """``dL . g`` (Pa) for strengths that fall by all of ``dL`` at one trial."""
+
+    def returned(self, trial: Floats, weakening: StrengthLoss) -> tuple[Floats, Floats, Floats]:
+        """Return stress (m, d), flow (m, p) and share of the fall (m,) where these planes act."""
+
+    def tangent(self, trial: Floats, weakening: StrengthLoss, after: Floats) -> Floats:
+        """Return the derivative (m, d, d), or (d, d) of all, of that stress by the trial's."""
+
+
 @dataclass(frozen=True)
 class Planes:
-    """Planes that act together.
+    """Planes that act together and stand.
 
     Attributes
     ----------
@@ -73,9 +89,7 @@ class Planes:
     falls: Floats
 
     @classmethod
-    def of(
-        cls, elastic: Floats, normals: tuple[Floats, Floats], strength: Floats, falls: Floats
-    ) -> Self:
+    def of(cls, elastic: Floats, normals: Normals, strength: Floats, falls: Floats) -> Self:
         """Return planes of ``normals`` (p, d) each: of yield, and along which they flow."""
         normal, way = normals
         flow = elastic @ way.T
@@ -86,11 +100,11 @@ class Planes:
 
     @cached_property
     def eased(self) -> float:
-        """``dL . g`` (Pa) for strengths that fall by all of ``dL`` at one trial."""
+        """See `ActingPlanes.eased`."""
         return float(self.falls @ self.inverse @ self.falls)
 
     def returned(self, trial: Floats, weakening: StrengthLoss) -> tuple[Floats, Floats, Floats]:
-        """Return stress (m, d), flow (m, p) and share of the fall (m,) where these planes act."""
+        """See `ActingPlanes.returned`."""
         done = weakening.done
         if self.eased == 0:  # perfectly plastic
             flow = trial @ self.multiplier.T - self.inverse @ self.strength
@@ -100,8 +114,8 @@ class Planes:
         flow = flow + np.outer(after - done, self.inverse @ self.falls)
         return trial @ self.keeps.T + self._strength(after) @ self.back.T, flow, after
 
-    def tangent(self, weakening: StrengthLoss, after: Floats) -> Floats:
-        """Derivative (m, d, d), or (d, d) of all, of the returned stress by the trial's."""
+    def tangent(self, trial: Floats, weakening: StrengthLoss, after: Floats) -> Floats:
+        """See `ActingPlanes.tangent`."""
         if self.eased == 0:
             return self.keeps
         speed = np.where(after < 1, self._speed(weakening), 0.0)
@@ -134,7 +148,7 @@ def falling(strength: Floats, share: float) -> Floats:
     return np.asarray(share * np.where(np.isfinite(strength), strength, 0.0))
 
 
-def largest_cell(sets: Sequence[Planes], energy: float) -> float:
+def largest_cell(sets: Sequence[ActingPlanes], energy: float) -> float:
     """Return the size (m) from which some set has no answer: it softens faster than it unloads."""
     eased = max(one.eased for one in sets)
     return 2 * energy / eased if eased > 0 else float("inf")
@@ -142,7 +156,7 @@ def largest_cell(sets: Sequence[Planes], energy: float) -> float:
 
 def return_to_planes(
     trial: Floats,
-    sets: Sequence[Planes],
+    sets: Sequence[ActingPlanes],
     weakening: StrengthLoss,
     beyond: Callable[[Floats, Floats], Floats],
     scale: tuple[float, Floats],
@@ -169,7 +183,7 @@ def return_to_planes(
         better = wrong < least[at] - BEYOND * size[at]
         chosen = at[better]
         least[chosen], found[chosen], done[chosen] = wrong[better], stress[better], after[better]
-        tangent[chosen] = planes.tangent(weak.at(better), after[better])
+        tangent[chosen] = planes.tangent(trial[chosen], weak.at(better), after[better])
         # Where nothing is exceeded and nothing flows backwards no other set is asked.
         at = at[least[at] > BEYOND * size[at]]
         if not len(at):

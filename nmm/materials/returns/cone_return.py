@@ -2,7 +2,7 @@
 
 Size of the deviator and mean stress span a plane in which the yield surface is two lines: the cone
 ``q + eta p = k`` and the cap ``p = t``, which is the apex where nothing is cut off before. Stresses
-return to one of them or to the corner (`nmm.materials.planes`).
+return to one of them or to the corner (`nmm.materials.returns.planes`).
 """
 
 from dataclasses import dataclass, replace
@@ -11,8 +11,15 @@ from functools import cached_property
 import numpy as np
 
 from integration.arrays import Bools, Floats
-from nmm.materials.planes import BEYOND, Planes, ReturnedStress, StrengthLoss, return_to_planes
-from nmm.materials.radial_return import DEVIATOR, TWICE, VOLUME
+from nmm.materials.returns.planes import (
+    BEYOND,
+    ActingPlanes,
+    ReturnedStress,
+    StrengthLoss,
+    return_to_planes,
+)
+from nmm.materials.returns.radial_return import DEVIATOR, TWICE, VOLUME
+from nmm.materials.returns.turning_planes import planes_between
 
 MEAN = np.array([1.0, 1.0, 0.0, 1.0])
 # Lines that act together: the cone, the cap, their corner.
@@ -27,8 +34,9 @@ class SmoothCone:
     ----------
     shear, bulk
         Moduli (Pa).
-    slope, dilation
-        eta of friction and of dilation.
+    slopes
+        (2, 2, 2) factors of q and p where nothing and where all of the fall is done, of yield and
+        of flow: 1 and eta of friction and of dilation. The last count in units of the first ``xi``.
     strength
         (2,) ``xi c``, and the largest mean stress: the cut-off, or the apex; infinite where there
         is neither (Pa).
@@ -38,19 +46,22 @@ class SmoothCone:
 
     shear: float
     bulk: float
-    slope: float
-    dilation: float
+    slopes: Floats
     strength: Floats
     falls: Floats
 
     @cached_property
-    def sets(self) -> tuple[Planes, ...]:
+    def sets(self) -> tuple[ActingPlanes, ...]:
         """Lines that act together."""
         elastic = np.diag([self.shear, self.bulk])
-        normal, way = (np.array([[1, one], [0, 1]]) for one in (self.slope, self.dilation))
+        first, last = ([np.array([one, [0, 1]]) for one in end] for end in self.slopes)
         acting = ACTING if np.isfinite(self.strength[1]) else ACTING[:1]
         return tuple(
-            Planes.of(elastic, (normal[at], way[at]), self.strength[at], self.falls[at])
+            planes_between(
+                elastic,
+                ((first[0][at], first[1][at]), (last[0][at], last[1][at])),
+                *(self.strength[at], self.falls[at]),
+            )
             for at in acting
         )
 
@@ -74,7 +85,11 @@ class SmoothCone:
         """
         cone, cap = self.strength[:, None] - np.outer(self.falls, done)
         size, mean = stress.T
-        return np.asarray(np.maximum(size + self.slope * mean - cone, mean - cap))
+        (_, slope), turn = self.slopes[0, 0], self.slopes[1, 0] - self.slopes[0, 0]
+        over = size + slope * mean - cone
+        if turn.any():
+            over += done * (turn[0] * size + turn[1] * mean)
+        return np.asarray(np.maximum(over, mean - cap))
 
 
 def cone_return(

@@ -1,0 +1,1 @@
+"""Returns of stresses to yield surfaces, all points at once."""
