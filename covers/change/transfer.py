@@ -16,13 +16,12 @@ from scipy.sparse import coo_array, csc_array, csr_array, diags_array
 
 from covers.approximation.manifold import Manifold
 from covers.approximation.rows import Rows
+from covers.approximation.singular.rules import graded_rule
 from covers.change.normal_equations import NormalEquations
 from covers.change.parentage import Parentage
 from integration.arrays import Bools, Floats, Ints
-from integration.rules import polygon_rule
+from integration.rules import PointRule, polygon_rule
 
-# Degree of the quadrature on elements with singular functions.
-SINGULAR = 8
 # Share of the mass, scaled to the stiffness, that makes rigid motions unique in the projection of
 # strains; iteration removes its effect.
 MADE_UNIQUE = 1e-8
@@ -66,11 +65,16 @@ class Transfer:
         taken = np.full(kin.new.n_unknowns, -1) if inherited is None else inherited
         wanted = _holding(kin.new, taken < 0)[kin.elements.child]
         rough = _rough(kin.old)[kin.elements.parent] | _rough(kin.new)[kin.elements.child]
-        order = 2 * max(kin.old.degree, kin.new.degree)
-        smooth = _rule(kin, np.flatnonzero(wanted & ~rough), order)
-        sharp = _rule(kin, np.flatnonzero(wanted & rough), max(order, SINGULAR))
-        pairs, points, area = (np.concatenate(both) for both in zip(smooth, sharp, strict=True))
-        return cls(kin, pairs.T, points, area, area * density[pairs[:, 0]], taken)
+        degree = max(kin.old.degree, kin.new.degree)
+        smooth, sharp = np.flatnonzero(wanted & ~rough), np.flatnonzero(wanted & rough)
+        rules = polygon_rule(kin.pieces.take(smooth), 2 * degree), _sharp_rule(kin, sharp, degree)
+        owner = np.concatenate([smooth[rules[0].owner], sharp[rules[1].owner]])
+        points, area = (
+            np.concatenate([getattr(rule, name) for rule in rules])
+            for name in ("points", "weights")
+        )
+        pairs = np.stack([kin.elements.parent[owner], kin.elements.child[owner]])
+        return cls(kin, pairs, points, area, area * density[pairs[0]], taken)
 
     @cached_property
     def old(self) -> Rows:
@@ -195,12 +199,14 @@ class _StrainRows:
         return csr_array((self.values.ravel(), columns, offsets), shape=(rows * q, n_unknowns))
 
 
-def _rule(kin: Parentage, parts: Ints, order: int) -> tuple[Ints, Floats, Floats]:
-    """Old and new elements (Q, 2), points (Q, 2) and weights (Q,) on some common parts."""
-    rule = polygon_rule(kin.pieces.take(parts), order)
-    owner = parts[rule.owner]
-    pair = np.stack([kin.elements.parent[owner], kin.elements.child[owner]], axis=1)
-    return pair, rule.points, rule.weights
+def _sharp_rule(kin: Parentage, parts: Ints, degree: int) -> PointRule:
+    """Points on common parts of elements with singular functions, graded about their points.
+
+    Exact for products of strains.
+    """
+    place = np.unique(np.concatenate([kin.old.singular, kin.new.singular]), axis=0)
+    which = np.broadcast_to(np.arange(len(place)), (len(parts), len(place)))
+    return graded_rule(kin.pieces.take(parts), place, which, degree - 1)
 
 
 def _holding(manifold: Manifold, unknowns: Bools) -> Bools:

@@ -22,9 +22,11 @@ def verify_hard(
     slow: bool,
     listed: bool,
     out: Path | None,
+    quiet: bool,
 ) -> None:
     """Run classes of hard cases, or list them; write the scenes that miss to a folder.
 
+    If ``quiet`` cases that pass are not printed.
     Where ``out`` is a file NAME.jsonl a record of each case is added to it in place of that; where
     it is a file NAME.md it becomes a page of the manual, of files of records if they are named.
 
@@ -49,7 +51,8 @@ def verify_hard(
     for group, case in chosen_cases(names, seeds, slow, parts):
         finding = judged(group, case)
         found.append(finding)
-        _tell(finding)
+        if not (quiet and finding.passed):
+            _tell(finding)
         if out is not None and out.suffix == ".md":
             write_page(found, out, how)  # anew with each, so that a run that is stopped leaves it
         elif out is not None and out.suffix == SUFFIX:

@@ -58,7 +58,8 @@ def verify(
         if hard:
             from nmm.cli.hard_verbs import verify_hard
 
-            verify_hard(names or [], range(first, first + seeds), part or [], slow, listed, out)
+            numbers = range(first, first + seeds)
+            verify_hard(names or [], numbers, part or [], slow, listed, out, quiet)
             return
         if listed:
             _list(names or [])

@@ -22,9 +22,7 @@ SINGULAR, FRACTIONAL = 8, 8
 def singular_rule(
     polygons: Polygons, enrichments: Sequence[Enrichment], which: Ints, degree: int
 ) -> PointRule:
-    """Return a quadrature that is graded about near singular points, and Gaussian elsewhere.
-
-    An element near several points is divided into the parts nearest to each.
+    """Return the quadrature of elements with singular functions, see `graded_rule`.
 
     Parameters
     ----------
@@ -36,11 +34,33 @@ def singular_rule(
         Degree of the polynomials, weights included.
     """
     place = np.array([item.point for item in enrichments])
-    away = np.hypot(*np.moveaxis(polygons.centroids[:, None] - place[which], -1, 0))
-    near = away < NEAR_TIP * diameters(polygons)[:, None]
     powers = np.array([item.functions.exponent for item in enrichments])
     # Multiples of one half are integrated exactly, other powers need more points along the radius.
     more = 0 if np.array_equal(2 * powers, np.round(2 * powers)) else FRACTIONAL
+    return graded_rule(polygons, place, which, degree, more)
+
+
+def graded_rule(
+    polygons: Polygons, place: Floats, which: Ints, degree: int, more: int = 0
+) -> PointRule:
+    """Return a quadrature that is graded about near singular points, and Gaussian elsewhere.
+
+    A polygon near several points is divided into the parts nearest to each.
+
+    Parameters
+    ----------
+    polygons
+        N polygons.
+    place, which
+        (P, 2) singular points (m), and (N, p) those of each polygon.
+    degree, more
+        Degree of the polynomials, weights included, and of what is integrated beside them along
+        the radius.
+    """
+    if not len(place):
+        return polygon_rule(polygons, 2 * degree)
+    away = np.hypot(*np.moveaxis(polygons.centroids[:, None] - place[which], -1, 0))
+    near = away < NEAR_TIP * diameters(polygons)[:, None]
     others = np.flatnonzero(~near.any(axis=1))
     parts, owner, point = _parted(polygons, which, near, away, place)
     about = tip_rule(parts, place[point], 2 * degree + 2 + more)

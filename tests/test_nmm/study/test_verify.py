@@ -197,3 +197,11 @@ def test_a_benchmark_that_is_run_again_leaves_the_others_in_the_list(tmp_path, m
     assert "2 runs of 2 benchmarks, 0 missed" in index
     assert index.count("[first](first.md)") == 1
     assert "**missed**" not in (tmp_path / "manual/first.md").read_text()
+
+
+def test_a_quiet_hard_matrix_prints_what_misses_only():
+    words = ("verify", "--hard", "seams", "--part", "penalty", "--part", "shi")
+    loud, quiet = call(*words).stdout.splitlines(), call(*words, "-q").stdout.splitlines()
+    assert any(line.startswith("passed") for line in loud)
+    assert not any(line.startswith("passed") for line in quiet)
+    assert quiet[-1].split(",")[:2] == loud[-1].split(",")[:2]

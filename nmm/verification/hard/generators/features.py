@@ -122,18 +122,18 @@ def _features() -> Iterator[Feature]:
     yield Feature("stages", built, ANY)
     pulled = texts.rock() + texts.FLOOR + texts.CRACK + see
     grows = pulled + texts.pulled_edge(top, [5e4, 1e6]) + texts.GROWS + texts.quads(0.125)
-    turned = {"turn by 180 deg": 1e-4}  # functions of tips are integrated to that
+    turned = {"turn by 180 deg": 1e-5}  # functions of tips are integrated to that
     yield Feature("growth", grows + "[formulation.loading]\nincrement = 0.25\n", NET, turned)
     yield Feature(
         "growth in time",
         "duration = 2e-3\n" + grows + texts.INERTIA + texts.IN_TIME,
         NET,
-        dict.fromkeys(NET, 2e-2),
+        dict.fromkeys(NET, 1e-7) | turned,
     )
     zone = (
         pulled + texts.SOFTENS + texts.pulled_edge(top, [1e4, 1e6]) + texts.ZONE + texts.quads(0.25)
     )
-    yield Feature("cohesive zones", zone, LEVEL, dict.fromkeys(LEVEL, 1e-6))
+    yield Feature("cohesive zones", zone, LEVEL)
     falling = (
         "duration = 0.01\n"
         + texts.rock()
