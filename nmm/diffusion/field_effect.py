@@ -50,7 +50,7 @@ class FieldEffect(Effect):
     stress
         What it does to the blocks; None where it does nothing.
     conductivity
-        (E,) flux for each unit of slope.
+        (E, 2, 2) flux for each unit of slope, in the axes of bodies.
     second
         Seconds of the field in a unit of the run's time: statics counts its time by the load
         factor.
@@ -148,7 +148,7 @@ class FieldEffect(Effect):
 
         def made(field: Floats) -> Floats:
             slopes = np.stack([rows @ field for rows in self._slopes], axis=1)
-            return np.asarray(-self._conductivity[:, None] * slopes)
+            return np.asarray(-np.einsum("eij,ej->ei", self._conductivity, slopes))
 
         return KeptOfArray(made)
 

@@ -67,7 +67,7 @@ class FieldTables:
     Attributes
     ----------
     conductivity
-        (E,) flux for each unit of slope.
+        (E, 2, 2) flux for each unit of slope.
     capacity
         (E,) what a unit of volume stores for each unit of the field; None where it is steady.
     held, exchanges, inflows, sources
@@ -130,6 +130,16 @@ def of_elements(setup: Setup, key: str, missing: float = 0.0) -> Floats:
     values = [missing if value is None else value for value in given]
     region = setup.model.manifold.element_region
     return np.array(values)[np.asarray(setup.region_material)[region]]
+
+
+def conductivities(setup: Setup, key: str) -> Floats:
+    """Return the conductivity (E, 2, 2) of the elements' materials, of axes 1 and 2 or alike."""
+    along, across = of_elements(setup, key), of_elements(setup, f"{key}_2", missing=np.nan)
+    across = np.where(np.isnan(across), along, across)
+    angle = of_elements(setup, "axis_angle")
+    axis = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    more = (along - across)[:, None, None] * axis[:, :, None] * axis[:, None, :]
+    return np.asarray(across[:, None, None] * np.eye(2) + more)
 
 
 def fitted(setup: Setup, space: ScalarSpace, chosen: Bools, values: Values) -> Floats:

@@ -18,6 +18,7 @@ from nmm.assembly.places import Place
 from nmm.assembly.tractions.donors import donors
 from nmm.assembly.tractions.element_bounds import largest_ratio
 from nmm.diffusion.edges import Edge, Factor, steadily
+from nmm.diffusion.matrices import slope_integrals
 
 # Multiples of the least penalty with which the form is positive.
 SAFETY = 4.0
@@ -32,7 +33,7 @@ def held(
     name: str,
     factor: Factor = steadily,
 ) -> Edge:
-    """Hold the field at points of an edge; ``conductivity`` (E,), ``given`` (m,)."""
+    """Hold the field at points of an edge; ``conductivity`` (E, 2, 2), ``given`` (m,)."""
     assert place.normal is not None
     donor = donors(model, place.elements)
     area = place.weight * model.thickness
@@ -81,9 +82,13 @@ def jump(space: ScalarSpace, sides: Sequence[Place]) -> csr_array:
 def _flux(
     space: ScalarSpace, conductivity: Floats, donor: Ints, place: Place, normal: Floats
 ) -> csr_array:
-    """Rows (m, n) of ``k dT/dn``, of the donors, along the normal of the first side."""
-    along = conductivity[donor][:, None] * normal
-    return space.gradients(donor, place.position, along)
+    """Rows (m, n) of ``n . k grad T``, of the donors, along the normal of the first side."""
+    return space.gradients(donor, place.position, _times(conductivity[donor], normal))
+
+
+def _times(conductivity: Floats, normal: Floats) -> Floats:
+    """Return tensors (m, 2, 2) times normals (m, 2)."""
+    return np.asarray(np.einsum("mij,mj->mi", conductivity, normal))
 
 
 def _bounds(
@@ -101,7 +106,7 @@ def _bounds(
     energy, slope = _element_energy(space, served, model.thickness * conductivity)
     flux = np.zeros_like(energy)
     for place, own, side in zip(numbers, donor, sides, strict=True):  # at most two sides
-        values = slope(own, side.position, conductivity[own][:, None] * normal)
+        values = slope(own, side.position, _times(conductivity[own], normal))
         np.add.at(flux, place, np.einsum("ma,m,mb->mab", values, area, values))
     ratio = largest_ratio(flux, energy)
     return [ratio[place] for place in numbers]
@@ -111,7 +116,7 @@ Slopes = Callable[[Ints, Floats, Floats], Floats]
 
 
 def _element_energy(space: ScalarSpace, elements: Ints, factor: Floats) -> tuple[Floats, Slopes]:
-    """``int factor grad . grad`` (m, L, L) of elements, and slopes (m, L) along vectors in them."""
+    """``int grad . factor grad`` (m, L, L) of elements, and slopes (m, L) along vectors in them."""
     length = max((part.numbers.shape[1] for part in space.groups), default=0)
     total = np.zeros((len(elements), length, length))
     index = np.full(len(space.manifold.elements), -1)
@@ -122,11 +127,10 @@ def _element_energy(space: ScalarSpace, elements: Ints, factor: Floats) -> tuple
         chosen = np.flatnonzero(owner[elements] == number)
         if not len(chosen):
             continue
-        product = group.gradient_products()
-        both = product[:, 0] + product[:, 2]
-        k = part.numbers.shape[1]
-        own = elements[chosen]
-        total[chosen, :k, :k] = both[group.shape[index[own]]] * factor[own][:, None, None]
+        k, own = part.numbers.shape[1], elements[chosen]
+        columns = factor[own][:, [0, 0, 1], [0, 1, 1]]
+        integrals = slope_integrals(group)[group.shape[index[own]]]
+        total[chosen, :k, :k] = np.einsum("mw,mwst->mst", columns, integrals)
 
     def slopes(own: Ints, points: Floats, along: Floats) -> Floats:
         found = np.zeros((len(own), length))

@@ -21,7 +21,7 @@ Conductance = float | Literal["perfect"] | None
 
 @dataclass(frozen=True)
 class JointParts:
-    """What joints are made from: functions, model, conductivity (E,) and degree of edge rules."""
+    """What joints are made from: functions, model, conductivity (E, 2, 2), degree of rules."""
 
     space: ScalarSpace
     model: Model

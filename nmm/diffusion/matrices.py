@@ -5,24 +5,28 @@ from collections.abc import Callable
 import numpy as np
 from scipy.sparse import coo_array, csc_array, csr_array
 
+from covers.approximation.groups.element_group import ElementGroup
 from covers.scalar.space import ScalarGroup, ScalarSpace
 from integration.arrays import Floats
 from nmm.assembly.elements.blocks import Part, assemble
 
 
 def slopes(space: ScalarSpace, factor: Floats) -> csc_array:
-    """Integrals (n, n) of ``factor grad phi_s . grad phi_t``; ``factor`` (E,) of the elements."""
+    """Integrals (n, n) of ``grad phi_s . factor grad phi_t``; ``factor`` (E, 2, 2) symmetric."""
+    columns = factor[:, [0, 0, 1], [0, 1, 1]]
+    return _form(space, columns, slope_integrals)
 
-    def of(part: ScalarGroup) -> Floats:
-        products = part.group.gradient_products()
-        return np.asarray(products[:, 0] + products[:, 2])
 
-    return _form(space, factor, of)
+def slope_integrals(group: ElementGroup) -> Floats:
+    """Integrals (d, 3, S, S) that entries xx, xy and yy of a symmetric factor multiply."""
+    found = group.gradient_products().copy()
+    found[:, 1] += np.swapaxes(found[:, 1], 1, 2)
+    return found
 
 
 def products(space: ScalarSpace, factor: Floats) -> csc_array:
-    """Integrals (n, n) of ``factor phi_s phi_t``."""
-    return _form(space, factor, lambda part: part.group.products())
+    """Integrals (n, n) of ``factor phi_s phi_t``; ``factor`` (E,) of the elements."""
+    return _form(space, factor[:, None], lambda group: group.products()[:, None])
 
 
 def integrals(space: ScalarSpace, factor: Floats) -> Floats:
@@ -74,17 +78,18 @@ def stress_coupling(space: ScalarSpace, stress: Floats) -> csr_array:
     return csr_array(coo_array((np.concatenate(values), places), shape=shape))
 
 
-def _form(space: ScalarSpace, factor: Floats, of: Callable[[ScalarGroup], Floats]) -> csc_array:
+def _form(space: ScalarSpace, factor: Floats, of: Callable[[ElementGroup], Floats]) -> csc_array:
+    """Sum of integrals (d, w, S, S) ``of`` a group times factors (E, w)."""
     parts = []
     for part in space.groups:  # a handful of groups
         group = part.group
         pairs, first, kind = np.unique(
-            np.stack([group.shape, factor[group.elements]], axis=1),
+            np.column_stack([group.shape, factor[group.elements]]),
             axis=0,
             return_index=True,
             return_inverse=True,
         )
-        matrices = of(part)[group.shape[first]] * pairs[:, 1, None, None]
+        matrices = np.einsum("mw,mwst->mst", pairs[:, 1:], of(group)[group.shape[first]])
         parts.append(Part(part.numbers, matrices, kind.ravel()))
     return assemble(parts, space.n, space.offset)
 

@@ -6,7 +6,14 @@ import numpy as np
 
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats
-from nmm.diffusion.from_scene import FieldTables, GivenTable, field_problem, of_elements, sloping
+from nmm.diffusion.from_scene import (
+    FieldTables,
+    GivenTable,
+    conductivities,
+    field_problem,
+    of_elements,
+    sloping,
+)
 from nmm.diffusion.problem import DiffusionProblem
 from nmm.effects.base import Setup
 
@@ -35,7 +42,7 @@ def heat_problem(setup: Setup, space: ScalarSpace) -> DiffusionProblem:
         for one in scene.convections
     ]
     tables = FieldTables(
-        conductivity=of_elements(setup, "conductivity"),
+        conductivity=conductivities(setup, "conductivity"),
         capacity=stored,
         held=held,
         exchanges=around,

@@ -12,7 +12,7 @@ from nmm.assembly.matter import SWELLING, Matter
 from nmm.assembly.motion import State
 from nmm.diffusion.course import FieldCourse
 from nmm.diffusion.field_effect import FieldEffect, course_of
-from nmm.diffusion.from_scene import of_elements
+from nmm.diffusion.from_scene import conductivities, of_elements
 from nmm.effects.base import Instant, Setup
 from nmm.errors import Fault, SceneError
 from nmm.heat.from_scene import heat_problem
@@ -63,7 +63,7 @@ class Heat(FieldEffect):
             rise = 0.0 if table.initial is None else table.initial - table.reference
             initial = rise * space.one
         course = course_of(setup, problem, initial, second)
-        conductivity = of_elements(setup, "conductivity")
+        conductivity = conductivities(setup, "conductivity")
         finite = setup.kinematics.finite
         given = (
             *(one.temperature for one in setup.scene.temperatures),

@@ -157,10 +157,11 @@ def material_law(item: "Material") -> Law:
         Constants that the law does not have, or lacks.
     """
     given = {name: getattr(item, name) for name in WHERE_GIVEN if getattr(item, name) is not None}
-    constants = {"young_modulus": item.young_modulus, "poisson_ratio": item.poisson_ratio, **given}
     kind = cast(Any, MATERIAL_LAWS.load(item.law))
     if is_dataclass(kind):
         known = {field.name: field for field in fields(kind) if field.init}
+        if "axis_angle" not in known and (item.conductivity_2 or item.hydraulic_conductivity_2):
+            given.pop("axis_angle", None)  # of conductivities alone
         for name in given:
             if name not in known:
                 having = [law for law in MATERIAL_LAWS.names() if _has(law, name)]
@@ -171,6 +172,7 @@ def material_law(item: "Material") -> Law:
             if name in known and name not in given and known[name].default is MISSING:
                 fault = Fault(f'law "{item.law}"', f"no {name}", "one", f"add {name}")
                 raise FormulationError(fault)
+    constants = {"young_modulus": item.young_modulus, "poisson_ratio": item.poisson_ratio, **given}
     law: Law = MATERIAL_LAWS.make(item.law, item.options, **constants)
     return law
 

@@ -201,6 +201,7 @@ CASES = Registry[type[Case]](
         "WA13": f"{_HOME}.consolidation:ConsolidatingColumn",
         "WA14": f"{_HOME}.mandel:SqueezedSoil",
         "WA15": f"{_HOME}.ditches:FilledDitch",
+        "WA17": f"{_HOME}.bedded_ground:BeddedLayer",
         "WA16": f"{_HOME}.sheet_pile:SheetPile",
         "B9 damping": f"{_HOME}.time_integration:SpringBlock",
         "B9 error": f"{_HOME}.steps_by_error:ErrorAsked",

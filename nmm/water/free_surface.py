@@ -15,7 +15,7 @@ as the test function ``x`` shows: ``k (h1^2 - h2^2) / (2 L)`` (Charny 1951).
 
 In terms of the head ``h = y + p / w`` the equation is that of saturated ground with a load,
 
-    K h = f + int k (1 - s) dphi / dy.
+    K h = f + int (1 - s) grad phi . k e_y.
 """
 
 from collections.abc import Callable
@@ -50,7 +50,7 @@ class Filling:
     height
         (Q,) y of the points (m).
     fall
-        (n, Q) ``k dphi / dy`` times the quadrature weight.
+        (n, Q) ``grad phi . k`` upright times the quadrature weight.
     width
         (E,) pressure head at which an element is saturated (m).
     owner, share
@@ -66,18 +66,17 @@ class Filling:
 
     @classmethod
     def of(cls, space: ScalarSpace, conductance: Floats) -> "Filling":
-        """Return it for a space; ``conductance`` (E,) is conductivity times thickness (m2/s)."""
+        """Return it for a space; ``conductance`` (E, 2, 2) is conductivity times thickness."""
         manifold = space.manifold
         elements, degree = manifold.elements, manifold.degree + 1
         rule = polygon_rule(elements, 2 * degree + FINER)
-        upright = np.broadcast_to([0.0, 1.0], rule.points.shape)
-        slopes = space.gradients(rule.owner, rule.points, upright)
+        slopes = space.gradients(rule.owner, rule.points, conductance[rule.owner, :, 1])
         # Slivers take the width of the cells that they are cut from.
         size = np.sqrt(np.maximum(elements.areas, np.median(elements.areas))) / degree
         return cls(
             space.values(rule.owner, rule.points),
             rule.points[:, 1],
-            csr_array(slopes.T @ diags_array(rule.weights * conductance[rule.owner])),
+            csr_array(slopes.T @ diags_array(rule.weights)),
             size,
             rule.owner,
             rule.weights / elements.areas[rule.owner],

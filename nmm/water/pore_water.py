@@ -23,6 +23,7 @@ from nmm.diffusion.from_scene import (
     FieldTables,
     GivenTable,
     Values,
+    conductivities,
     field_problem,
     fitted,
     of_elements,
@@ -97,7 +98,7 @@ class PoreWater(FieldEffect):
         ground = fitted(setup, space, everything, lambda points: points[:, 1])
         stress = FieldStress(space, setup.model, _pore_stress(setup))
         course = course_of(setup, problem, initial, second)
-        conductivity = of_elements(setup, "hydraulic_conductivity")
+        conductivity = conductivities(setup, "hydraulic_conductivity")
         weight = table.unit_weight
         finite = _finite(setup)
         return cls(course, stress, conductivity, ground, weight, second, filling, finite)
@@ -140,7 +141,7 @@ class PoreWater(FieldEffect):
         if self._filling is None:
             return found
         empty = 1 - self._filling.means(self.here(state.time).unknowns)
-        fall = np.stack([np.zeros_like(empty), self._conductivity * empty], axis=1)
+        fall = self._conductivity[:, :, 1] * empty[:, None]
         return found + state.frames.to_global(self.space.manifold.element_body, fall)
 
     def history(self, state: State) -> Mapping[str, float]:
@@ -196,7 +197,7 @@ def _filling(setup: Setup, space: ScalarSpace) -> "Filling":
             expected = "a head that stays, with a free_surface"
             raise SceneError(Fault(place, "a history", expected, "remove it"))
     thickness = setup.model.thickness
-    return Filling.of(space, thickness * of_elements(setup, "hydraulic_conductivity"))
+    return Filling.of(space, thickness * conductivities(setup, "hydraulic_conductivity"))
 
 
 def _held(
@@ -214,7 +215,8 @@ def _held(
         assert place.normal is not None
         depth = air(place.position) - place.position[:, 1]
         filled = filling.filled(depth, place.elements)
-        return -conductivity[place.elements] * (1 - filled) * place.normal[:, 1]
+        falls = (conductivity[place.elements, :, 1] * place.normal).sum(axis=1)
+        return np.asarray(-(1 - filled) * falls)
 
     return GivenTable("heads", one, air, besides=empty)
 
@@ -226,7 +228,7 @@ def _problem(
     scene = setup.scene
     assert scene.seepage is not None
     stored = of_elements(setup, "specific_storage") if scene.seepage.transient else None
-    conductivity = of_elements(setup, "hydraulic_conductivity")
+    conductivity = conductivities(setup, "hydraulic_conductivity")
     held = [_held(setup, one, filling, conductivity) for one in scene.heads]
     inflows = [GivenTable("inflows", one, amount=one.velocity) for one in scene.inflows]
     tables = FieldTables(

@@ -173,6 +173,13 @@ class Material(Frozen):
         description="a thermal conductivity in W/(m K), > 0",
         examples=example("W/m/K"),
     )
+    conductivity_2: Annotated[float, quantity("W/m/K")] | None = Field(
+        default=None,
+        gt=0,
+        description="a thermal conductivity along axis 2 in W/(m K), > 0; conductivity is then "
+        "that of axis 1, at axis_angle; alike in all directions if not given",
+        examples=example("W/m/K"),
+    )
     heat_capacity: Annotated[float, quantity("J/kg/K")] | None = Field(
         default=None,
         gt=0,
@@ -189,6 +196,13 @@ class Material(Frozen):
         gt=0,
         description="a hydraulic conductivity in m/s, > 0",
         examples=["1e-6 m/s"],
+    )
+    hydraulic_conductivity_2: Annotated[float, quantity("m/s")] | None = Field(
+        default=None,
+        gt=0,
+        description="a hydraulic conductivity along axis 2 in m/s, > 0; hydraulic_conductivity is "
+        "then that of axis 1, at axis_angle; alike in all directions if not given",
+        examples=["1e-7 m/s"],
     )
     specific_storage: Annotated[float, quantity("1/m")] | None = Field(
         default=None,

@@ -229,12 +229,12 @@ class HeatRates(Case):
         square = text.turned(text.rectangle((0, 0), (1, 1)), self.angle)
         cover = chosen(formulation).cover.model_copy(update={"size": size})
         model = solid(polygon(square), cover, [Elastic(1.0, 0.2)], "stress")
-        space, ones = ScalarSpace.of(model.manifold), np.ones(len(model.density))
-        manifold = model.manifold
+        manifold, space = model.manifold, ScalarSpace.of(model.manifold)
+        alike = np.tile(np.eye(2), (len(model.density), 1, 1))
         place = on_edges(manifold, np.ones(len(manifold.boundary), dtype=bool), 10)
-        edges = held(space, model, ones, place, _harmonic(place.position), "rim")
+        edges = held(space, model, alike, place, _harmonic(place.position), "rim")
         solver = field_solver(manifold, Solver())
-        problem = DiffusionProblem(space, slopes(space, ones), None, [edges], [], [], solver)
+        problem = DiffusionProblem(space, slopes(space, alike), None, [edges], [], [], solver)
         rule = polygon_rule(manifold.elements, 10)
         off = space.values(rule.owner, rule.points) @ problem.steady(0.0) - _harmonic(rule.points)
         assert manifold.reproduction is not None

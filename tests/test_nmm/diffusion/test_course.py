@@ -25,10 +25,11 @@ def course(theta, step=None):
     model = solid(polygon(rectangle((0, 0), (1, 1))), cover, [Elastic(1.0, 0.2)], "stress")
     space, ones = ScalarSpace.of(model.manifold), np.ones(len(model.density))
     place = on_edges(model.manifold, np.ones(len(model.manifold.boundary), dtype=bool), 6)
-    rim = held(space, model, ones, place, np.zeros(len(place)), "rim")
+    alike = np.tile(np.eye(2), (len(ones), 1, 1))
+    rim = held(space, model, alike, place, np.zeros(len(place)), "rim")
     solver = field_solver(model.manifold, Solver())
     problem = DiffusionProblem(
-        space, slopes(space, ones), products(space, ones), [rim], [], [], solver
+        space, slopes(space, alike), products(space, ones), [rim], [], [], solver
     )
     return FieldCourse(problem, FieldAt(0.0, space.one, {}), theta, step)
 

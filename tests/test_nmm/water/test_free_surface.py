@@ -218,3 +218,36 @@ def test_nothing_of_it_is_imported_where_it_is_not_asked_for():
         "assert 'nmm.water.free_surface' not in sys.modules\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+@pytest.mark.parametrize("across", [0.25e-6, 4e-6])
+@pytest.mark.parametrize("cover", ["quads", "triangles"])
+def test_a_dam_of_beds_lets_through_what_they_conduct_along_its_base(cover, across):
+    """``k_xx (h1^2 - h2^2) / 2 L``: Charny's argument with the test function x, whatever k_yy."""
+    scene = dam().replace(
+        "hydraulic_conductivity = 1e-06",
+        f"hydraulic_conductivity = 1e-06\nhydraulic_conductivity_2 = {across}",
+    )
+    found = run(scene, cover).history["seepage:taken:up"][-1]
+    assert found == pytest.approx(1e-6 * (10.0**2 - 2.0**2) / 16, rel=2e-3)
+
+
+def test_beds_that_rise_to_the_other_side_let_through_as_much_the_other_way():
+    flows = []
+    for rise, levels, inlet in ((25, (10.0, 2.0), "up"), (-25, (2.0, 10.0), "down")):
+        scene = dam(*levels).replace(
+            "hydraulic_conductivity = 1e-06",
+            f"hydraulic_conductivity = 1e-06\nhydraulic_conductivity_2 = 1e-7\n"
+            f'axis_angle = "{rise} deg"',
+        )
+        flows.append(run(scene).history[f"seepage:taken:{inlet}"][-1])
+    # Triangles of the quadrature of the saturation are not mirrored.
+    assert flows[0] == pytest.approx(flows[1], rel=1e-4)
+    other = run(scene.replace("-25", "25")).history["seepage:taken:down"][-1]
+    assert abs(other - flows[0]) > 0.01 * flows[0]
+
+
+def test_axes_of_what_is_alike_in_all_directions_are_refused_by_line():
+    scene = dam().replace("density = 2000.0", "axis_angle = 0.3")
+    with pytest.raises(NmmError, match="axis_angle.*expected a law that has it: orthotropic"):
+        run(scene)

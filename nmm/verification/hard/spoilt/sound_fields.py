@@ -3,6 +3,8 @@
 from nmm.verification.hard.spoilt.sound_texts import HEAD, HELD, SQUARE, UPPER
 
 HEATED = f"""{HEAD}conductivity = 2.5
+conductivity_2 = 2.0
+axis_angle = 0.4
 heat_capacity = 900
 thermal_expansion = 1e-5
 {SQUARE}[[blocks]]
@@ -53,6 +55,7 @@ size = 0.5
 degree = 1
 """
 SEEPING = f"""{HEAD}hydraulic_conductivity = 1e-6
+hydraulic_conductivity_2 = 5e-7
 specific_storage = 1e-5
 drainable_porosity = 0.1
 biot = 0.8

@@ -42,7 +42,9 @@ friction_angle = 0.3
 match = "compression"
 softening_energy = "5 kJ/m^2"
 residual_cohesion = 2e4
+dilation_angle = 0.1
 residual_friction_angle = 0.2
+residual_dilation_angle = 0.0
 density = 2000
 [[blocks]]
 name = "c"
