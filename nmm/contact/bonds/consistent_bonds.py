@@ -116,9 +116,11 @@ class ConsistentBonds:
         """Return the row of joint points, -1 of those without."""
         return self.number[-1 - joints.key]
 
-    def stress_rows(self, contacts: ContactPoints, frames: Frames) -> tuple[csr_array, csr_array]:
-        """Rows (k, n) of the average pull and shear at joint points (Pa), as gaps and slips go."""
-        unknowns, values = in_global_axes(self.fluxes, frames, self.row(contacts))
+    def force_rows(self, contacts: ContactPoints, frames: Frames) -> tuple[csr_array, csr_array]:
+        """Rows (k, n) of the average pull and shear at joint points (N), as gaps and slips go."""
+        row = self.row(contacts)
+        unknowns, values = in_global_axes(self.fluxes, frames, row)
+        values = values * self.area[row, None, None]
         pull, shear = (
             row_matrix(unknowns, -np.einsum("kc,kcl->kl", axis, values), self.n_unknowns, True)
             for axis in (contacts.normal, tangents(contacts.normal))
@@ -128,8 +130,9 @@ class ConsistentBonds:
     def added(
         self, contacts: ContactPoints, frames: Frames, stresses: Sequence[StressAt], time: float
     ) -> tuple[Floats, Floats]:
-        """Return pull and shear (k,) in Pa of stresses that effects add to those of the strain."""
-        total = -added_traction(self.fluxes, frames, stresses, time, self.row(contacts))
+        """Return pull and shear (k,) in N of stresses that effects add to those of the strain."""
+        row = self.row(contacts)
+        total = -added_traction(self.fluxes, frames, stresses, time, row) * self.area[row, None]
         axes = contacts.normal, tangents(contacts.normal)
         normal, shear = (np.einsum("kc,kc->k", axis, total) for axis in axes)
         return normal, shear

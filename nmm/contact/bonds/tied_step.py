@@ -16,7 +16,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array, diags_array
+from scipy.sparse import csc_array, csr_array, vstack
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.motion import State
@@ -37,44 +37,40 @@ class Direction:
     ----------
     gap
         (k,) jump (m).
-    stress
-        (k,) average traction (Pa).
-    gaps, stresses
+    pull
+        (k,) average traction times area (N).
+    gaps, pulls
         (k, n) rows of both.
-    area
-        (k,) in m2.
     held
-        (k, k) penalty times area on the jumps that it counts (N/m).
+        (k, k) penalty times area on the jumps that it counts (N/m), symmetric.
     """
 
     gap: Floats
-    stress: Floats
+    pull: Floats
     gaps: csr_array
-    stresses: csr_array
-    area: Floats
+    pulls: csr_array
     held: csr_array
 
     @property
-    def matrix(self) -> csc_array:
-        """The matrix (n, n) of the terms."""
-        across = self.gaps.T @ (diags_array(self.area) @ self.stresses)
-        return csc_array(across + across.T + self.gaps.T @ (self.held @ self.gaps))
+    def answers(self) -> csr_array:
+        """Rows (k, n) of the forces that work on the gaps, by half of those of the penalty."""
+        return csr_array(self.pulls + (self.held / 2) @ self.gaps)
 
     @property
     def push(self) -> Floats:
         """Forces on the unknowns (n,) at the start, with the sign changed."""
-        force = self.area * self.stress + self.held @ self.gap
-        return np.asarray(self.gaps.T @ force + self.stresses.T @ (self.area * self.gap))
+        force = self.pull + self.held @ self.gap
+        return np.asarray(self.gaps.T @ force + self.pulls.T @ self.gap)
 
     def force(self, increment: Floats) -> Floats:
         """Return the forces (k,) in N after an increment (n,)."""
-        stress, gap = self.stress + self.stresses @ increment, self.gap + self.gaps @ increment
-        return np.asarray(self.area * stress + self.held @ gap)
+        pull, gap = self.pull + self.pulls @ increment, self.gap + self.gaps @ increment
+        return np.asarray(pull + self.held @ gap)
 
     @property
     def energy(self) -> Floats:
         """The energies (k,) at the start (J); they may be negative."""
-        return np.asarray(self.gap * (self.area * self.stress + self.held @ self.gap / 2))
+        return np.asarray(self.gap * (self.pull + self.held @ self.gap / 2))
 
 
 @dataclass(frozen=True)
@@ -113,24 +109,28 @@ class TiedBonds(Transform):
         """
         index = np.flatnonzero(contacts.tied)
         tied = contacts.take(index)
-        pull, shear = bonds.stress_rows(tied, state.frames)
-        q, at = state.deformation, bonds.row(tied)
         more = bonds.added(tied, state.frames, stresses, state.time if time is None else time)
-        area = bonds.area[at]
-        held = csr_array(diags_array(area * bonds.penalty[at]) @ counting(tied))
+        at = bonds.row(tied)
+        held = counting(tied, bonds.area[at] * bonds.penalty[at])
         normal, tangent = (
-            Direction(gap, stress @ q + known, csr_array(gaps[index]), stress, area, held)
-            for gap, stress, known, gaps in (
-                (tied.gap, pull, more[0], rows.normal),
-                (tied.slip, shear, more[1], rows.tangent),
+            Direction(gap, force @ state.deformation + known, gaps[index], force, held)
+            for gap, force, known, gaps in zip(
+                (tied.gap, tied.slip),
+                bonds.force_rows(tied, state.frames),
+                more,
+                (rows.normal, rows.tangent),
+                strict=True,
             )
         )
         return cls(index, normal, tangent, weight)
 
     @cached_property
     def matrix(self) -> csc_array:
-        """The matrix (n, n) of all terms."""
-        return csc_array(self.normal.matrix + self.tangent.matrix)
+        """The matrix (n, n) of all terms: one product, as the other half is its transpose."""
+        both = self.normal, self.tangent
+        gaps = vstack([one.gaps for one in both], format="csr")
+        half = csc_array(gaps.T @ vstack([one.answers for one in both], format="csr"))
+        return csc_array(half + half.T)
 
     @cached_property
     def energy(self) -> float:

@@ -7,7 +7,7 @@ penalty. Where tractions vary along a joint they answer both parts, and the pena
 """
 
 import numpy as np
-from scipy.sparse import csr_array, diags_array
+from scipy.sparse import csr_array
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.points.contact_points import TIED, ContactPoints
@@ -28,14 +28,21 @@ def counted(contacts: ContactPoints, jump: Floats) -> Floats:
     return found
 
 
-def counting(tied: ContactPoints) -> csr_array:
-    """Return the matrix (k, k) from jumps of tied bonds to those that the penalty holds."""
+def counting(tied: ContactPoints, penalty: Floats) -> csr_array:
+    """Return the matrix (k, k) from jumps of tied bonds to what a penalty (k,) on them holds.
+
+    Its rows are those of `counted` times the penalty, which all points of a joint share.
+    """
     number, share = _numbered(_joint(tied)), tied.history[TIED]
-    size = np.bincount(number)
-    points = np.arange(len(tied))
-    member = csr_array((np.ones(len(tied)), (number, points)), shape=(len(size), len(tied)))
-    mean = member.T @ diags_array(1.0 / size) @ member
-    return csr_array(diags_array(share) + diags_array(1 - share) @ mean)
+    size, members = np.bincount(number), np.argsort(number, kind="stable")
+    length, point = size[number], np.repeat(np.arange(len(number)), size[number])
+    begin = np.cumsum(length) - length
+    # Entry by entry, the points of a row's joint one after the other.
+    nth = np.arange(len(point)) - begin[point]
+    column = members[(np.cumsum(size) - size)[number[point]] + nth]
+    part = ((1 - share) / length)[point] + np.where(column == point, share[point], 0.0)
+    limits = np.append(begin, len(point))
+    return csr_array((penalty[point] * part, column, limits), shape=(len(number), len(number)))
 
 
 def beside(contacts: ContactPoints, gone: Bools) -> Bools:

@@ -113,16 +113,12 @@ class MixedBonds:
         if not len(index):
             return None
         some = contacts.take(index)
-        area, springs = bonds.area[bonds.row(some)], laws.springs(contacts)
+        springs = laws.springs(contacts)
         added = bonds.added(some, state.frames, stresses, state.time if time is None else time)
         normal, tangent = (
-            AverageStress(
-                1 / spring[index],
-                area * (rows @ state.deformation + more),
-                csr_array(diags_array(area) @ rows),
-            )
+            AverageStress(1 / spring[index], rows @ state.deformation + more, rows)
             for spring, rows, more in zip(
-                springs[:2], bonds.stress_rows(some, state.frames), added, strict=True
+                springs[:2], bonds.force_rows(some, state.frames), added, strict=True
             )
         )
         return cls(index, normal, tangent)
