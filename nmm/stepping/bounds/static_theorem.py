@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array, hstack, vstack
 
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 
@@ -181,20 +181,30 @@ def _directions(stepper: "Stepper", state: State) -> csr_array:
     if border is not None:
         rows = border[0] @ modes
         held = csr_array(held / (abs(held).max() or 1.0) + rows.T @ rows / abs(rows).max() ** 2)
-    stiffest, free = abs(held).max(), []
-    tied = csr_array((np.ones(held.nnz), held.nonzero()), shape=held.shape)
     body = np.arange(held.shape[0]) // 3
     own = csr_array((np.ones(len(body)), (body, np.arange(len(body)))))
-    label = connected_components(tied + own.T @ own, directed=False)[1]
-    order = np.argsort(label, kind="stable")
-    for part in np.split(order, np.flatnonzero(np.diff(label[order])) + 1):  # groups of bodies
-        if len(part) > 3 * LARGEST:
-            continue
-        block = held[part][:, part].toarray()
-        value, vector = np.linalg.eigh(block)
-        loose = vector[:, value <= HOLDS * stiffest]
-        row = np.repeat(np.arange(loose.shape[1]), len(part))
-        column = np.tile(part, loose.shape[1])
-        shape = (loose.shape[1], len(label))
-        free.append(csr_array((loose.T.ravel(), (row, column)), shape=shape))
-    return csr_array(vstack(free) @ modes.T) if free else csr_array((0, n))
+    tied = csr_array((np.ones(held.nnz), held.nonzero()), shape=held.shape)
+    label = np.asarray(connected_components(tied + own.T @ own, directed=False)[1], np.int64)
+    return csr_array(_loose(held, label) @ modes.T)
+
+
+def _loose(held: csr_array, label: Ints) -> csr_array:
+    """Rows (k, m) of the directions that a stiffness (m, m), in groups by label (m,), leaves."""
+    order, size = np.argsort(label, kind="stable"), np.bincount(label)
+    place = np.empty(len(label), dtype=np.int64)
+    place[order] = np.arange(len(label)) - np.repeat(np.cumsum(size) - size, size)
+    entries, stiffest, rows = held.tocoo(), abs(held).max(), [csr_array((0, len(label)))]
+    for length in np.unique(size[size <= 3 * LARGEST]):  # groups of one size together
+        groups = np.flatnonzero(size == length)
+        number = np.full(len(size), -1)
+        number[groups] = np.arange(len(groups))
+        among = number[label[entries.row]] >= 0
+        i, j = entries.row[among], entries.col[among]
+        blocks = np.zeros((len(groups), length, length))
+        blocks[number[label[i]], place[i], place[j]] = entries.data[among]
+        value, vector = np.linalg.eigh(blocks)
+        at, mode = np.nonzero(value <= HOLDS * stiffest)
+        members = order[size[label[order]] == length].reshape(len(groups), length)
+        found = vector[at, :, mode].ravel(), members[at].ravel()
+        rows.append(csr_array((*found, np.arange(len(at) + 1) * length), (len(at), len(label))))
+    return csr_array(vstack(rows))

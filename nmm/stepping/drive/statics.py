@@ -238,10 +238,17 @@ def _no_equilibrium(
 ) -> RunVerdict:
     """Return the verdict on a load that was not solved: of the structure, if that is shown."""
     held, reason = at.state.load_factor, found.attempt.sentence
-    shown = evidence(stepper, at.state, factor, found, names)
-    if shown is None and schedule.until_failure and held:
-        limit = beyond(at.state, factor)
-        shown = None if limit is None else limit.sentence
+
+    def proven() -> str | None:
+        return evidence(stepper, at.state, factor, found, names)
+
+    def passed() -> str | None:
+        limit = beyond(at.state, factor) if schedule.until_failure and held else None
+        return None if limit is None else limit.sentence
+
+    # The static theorem knows bonds as they were: of those that break the path tells sooner.
+    solved = found.attempt.solved
+    shown = passed() or proven() if solved and solved.broken else proven() or passed()
     where = f"at load factor {held:.6g} after {at.changed}"
     if not at.changed:
         where = f"between load factors {held:.6g} and {factor:.6g}"

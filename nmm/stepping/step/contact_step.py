@@ -97,6 +97,8 @@ class ContactStepSolver:
                 break
             sought = further
         self.search.keep(state, sought)
+        if solved.broken is None and sought.broken is not None:
+            solved = with_parts(solved, broken=sought.broken)
         if good and solved.rows is not None:
             result = self._completed(equations, solved, result, rest, near is not None)
         passage = "" if motion is None else partners.passage(motion)
