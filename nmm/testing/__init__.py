@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from nmm.testing.controls import check_control as check_control
     from nmm.testing.covers import check_cover as check_cover
     from nmm.testing.criteria import check_criterion as check_criterion
+    from nmm.testing.effects.moved import check_moved_effect as check_moved_effect
     from nmm.testing.effects.promises import check_effect as check_effect
     from nmm.testing.effects.promises import check_effect_of as check_effect_of
     from nmm.testing.enforcements import check_enforcement as check_enforcement
@@ -38,6 +39,7 @@ _HOME = {
     "check_integrator": "integrators",
     "check_interface_law": "interface_laws",
     "check_law": "laws",
+    "check_moved_effect": "effects.moved",
     "check_output": "outputs",
     "check_smooth_enforcement": "enforcements",
     "check_solver": "solvers",
@@ -57,6 +59,7 @@ __all__ = [
     "check_integrator",
     "check_interface_law",
     "check_law",
+    "check_moved_effect",
     "check_output",
     "check_smooth_enforcement",
     "check_solver",

@@ -17,7 +17,8 @@ from nmm.cli.app import app
 from nmm.results import read_run
 from nmm.results.viewing.paraview import write_paraview
 from nmm.scene.read import build_scene
-from nmm.testing import check_effect_of
+from nmm.testing import check_effect_of, check_moved_effect
+from nmm.verification.hard.cases.transforms import shifted
 
 RAFT = Path(__file__).parents[2] / "examples" / "own_effect" / "raft.toml"
 CODE = ["foundation", "steepness"]
@@ -220,6 +221,9 @@ def test_an_installed_package_offers_an_effect_by_name(done, monkeypatch):
 def test_the_effect_of_the_example_keeps_what_every_one_promises():
     for name in ("ground", "friction"):
         check_effect_of(nmm.read_scene(RAFT), name, allow_code=CODE)
+    elsewhere = shifted(tomllib.loads(RAFT.read_text().replace('"-1 MN"', "-1e6")), (1e3, 2e3))
+    moved = build_scene(elsewhere, str(RAFT))
+    check_moved_effect(nmm.read_scene(RAFT), moved, "ground", allow_code=CODE)
 
 
 def test_quantities_of_contacts_are_stored_and_in_paraview(tmp_path):

@@ -1,1 +1,1 @@
-"""What every effect is held to, and how its force, matrix, work and energy fit each other."""
+"""What every effect is held to: how its force, matrix, work and energy fit, here or moved."""

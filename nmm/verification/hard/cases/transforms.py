@@ -15,7 +15,10 @@ VECTORS = (
     *("displacement", "force", "traction", "acceleration", "velocity", "density"),
     *("gradient", "direction"),
 )
-LEVELS = {"heads": "head", "joint_heads": "head", "water_pressures": "level"}
+LEVELS = {
+    **{"heads": "head", "joint_heads": "head"},
+    **{"water_pressures": "level", "initial_stresses": "surface"},
+}
 FORMULATION_POINTS = ("corners", "focus")
 
 Map = Callable[[Floats], Floats]
@@ -42,7 +45,8 @@ def shifted(scene: Document, by: tuple[float, float]) -> Document:
     """Return a scene laid elsewhere (m), with the levels of its waters; histories scale these."""
     made = mapped(scene, lambda points: points + np.asarray(by), lambda vectors: vectors)
     tables = [(key, item) for name, key in LEVELS.items() for item in made.get(name, [])]
-    for key, table in [*tables, ("initial", made.get("seepage", {}))]:
+    heads = [("initial", made.get(name, {})) for name in ("seepage", "joint_flow")]
+    for key, table in [*tables, *heads]:
         if key in table:
             table[key] += by[1]
     return made
@@ -109,11 +113,11 @@ def with_loads_times(scene: Document, factor: float) -> Document:
 def _mapped(key: str, value: Any, place: Map, vector: Map, turn: float) -> Any:
     if isinstance(value, dict):
         return {name: _mapped(name, item, place, vector, turn) for name, item in value.items()}
-    if key in (*POINTS, *FORMULATION_POINTS) and not isinstance(value, str):
+    if key in (*POINTS, *FORMULATION_POINTS) and value and not isinstance(value, str):
         return place(np.asarray(value, dtype=float)).tolist()
     if key == "holes":
         return [place(np.asarray(ring, dtype=float)).tolist() for ring in value]
-    if key in POINT:
+    if key in POINT and value:
         return place(np.asarray([value], dtype=float))[0].tolist()
     if key in VECTORS and isinstance(value, list):
         return vector(np.asarray([value], dtype=float))[0].tolist()
