@@ -15,8 +15,8 @@ from integration.arrays import Floats
 from nmm import Formulation, parse_scene, run
 from nmm.errors import FormulationError
 from nmm.stepping.run import Run
-from nmm.verification.problems.incline import Sliding
-from nmm.verification.problems.stacks import Stack
+from nmm.verification.problems.contact.incline import Sliding
+from nmm.verification.problems.contact.stacks import Stack
 
 SCRIPT = Path(__file__).parents[2] / "examples" / "one_scene" / "compare.py"
 G = 9.81

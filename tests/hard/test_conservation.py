@@ -12,7 +12,7 @@ from nmm.stepping.run import run
 from nmm.verification import text
 from nmm.verification.formulations import chosen
 from nmm.verification.hard.running.running import chosen_cases
-from nmm.verification.problems.incline import FrictionThreshold, down
+from nmm.verification.problems.contact.incline import FrictionThreshold, down
 from nmm.verification.reading import momentum, way
 
 INTEGRATORS = {

@@ -7,8 +7,8 @@ from nmm.scene import parse_scene
 from nmm.stepping.run import run
 from nmm.verification import text
 from nmm.verification.formulations import chosen
-from nmm.verification.problems.incline import FrictionThreshold, down
-from nmm.verification.problems.rotation import spinning
+from nmm.verification.problems.contact.incline import FrictionThreshold, down
+from nmm.verification.problems.motion.rotation import spinning
 from nmm.verification.reading import last_way, rates, way
 
 OMEGA = 2 * np.pi * 0.37

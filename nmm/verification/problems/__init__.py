@@ -1,1 +1,1 @@
-"""The benchmark problems, by subject."""
+"""The benchmark problems, by subject; what they share is in `nmm.verification`."""

@@ -20,7 +20,7 @@ from integration.polygons import Polygons
 from integration.rules import polygon_rule
 from nmm.assembly.model import Model
 from nmm.materials.elastic import Elastic
-from nmm.verification.problems.special_cases import net, residue
+from nmm.verification.problems.solids.special_cases import net, residue
 
 SQUARE = Polygons.from_vertices([np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])])
 HOLED = Polygons.from_rings(

@@ -12,7 +12,7 @@ from nmm.model.from_polygons import solid
 from nmm.scene import parse_scene
 from nmm.stepping.run import run
 from nmm.verification.free_modes import lowest_modes
-from nmm.verification.problems.waves import BarWave
+from nmm.verification.problems.motion.waves import BarWave
 
 SQUARE = Polygons.from_vertices([np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])])
 DENSITY = 3.0

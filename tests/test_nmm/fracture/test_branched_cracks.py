@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nmm.verification.problems.branched_cracks import SKEW, UP, by_dislocations, by_manifold
+from nmm.verification.problems.cracks.branched_cracks import SKEW, UP, by_dislocations, by_manifold
 
 ALL_AROUND = np.eye(2)
 

@@ -11,8 +11,8 @@ from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
 from nmm.testing.scenes import PULLED, notched_plate, turned_net
 from nmm.verification import text
-from nmm.verification.problems.crack_paths import force
-from nmm.verification.problems.crack_scenes import crack, pinned, pull
+from nmm.verification.problems.cracks.crack_paths import force
+from nmm.verification.problems.cracks.crack_scenes import crack, pinned, pull
 
 RULE = 'toughness = 1.0\nincrement = 0.05\nmax_growth = 0.3\ncontrol = "toughness"'
 # Cells across a body of one metre, twice the length of pieces.

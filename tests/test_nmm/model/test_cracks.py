@@ -14,7 +14,7 @@ from nmm.fracture.stress_intensity import stress_intensity
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
 from nmm.verification.continuum import Problem, load, on_mesh
-from nmm.verification.problems.cracks import LAW, EdgeCrack
+from nmm.verification.problems.cracks.stationary_cracks import LAW, EdgeCrack
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from nmm.verification.problems.manufactured import Waves
+from nmm.verification.problems.solids.manufactured import Waves
 
 
 @pytest.mark.parametrize("formulation", ["springs", "manifold", "multipliers"])

@@ -8,7 +8,7 @@ import pytest
 import nmm
 from nmm.assembly.motion import vertex_points
 from nmm.stepping.prepare import prepare
-from nmm.verification.problems.pieces import flying_block, moving, split
+from nmm.verification.problems.splitting.pieces import flying_block, moving, split
 
 BLOCK = flying_block()
 COVERS = {

@@ -9,7 +9,7 @@ import nmm
 from nmm.assembly.momenta import momenta_about, rigid_momenta
 from nmm.assembly.motion import initial_state
 from nmm.stepping.prepare import prepare
-from nmm.verification.problems.pieces import moving
+from nmm.verification.problems.splitting.pieces import moving
 
 LENGTH, HEIGHT, STRENGTH = 1.0, 0.1, 2e6
 BEAM = """

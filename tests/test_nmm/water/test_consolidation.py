@@ -5,7 +5,7 @@ import pytest
 
 import nmm
 from nmm.errors import NmmError
-from nmm.verification.problems.consolidation import (
+from nmm.verification.problems.water.consolidation import (
     CONFINED,
     HEIGHT,
     LOAD,
@@ -14,7 +14,7 @@ from nmm.verification.problems.consolidation import (
     isochrone,
     settled,
 )
-from nmm.verification.problems.seepage import pressure
+from nmm.verification.problems.water.seepage import pressure
 
 QUADS = '[formulation.cover]\ntype = "quads"\nsize = 1.0\ndegree = 1\n'
 DEEP = np.array([[0.5, 0.1 * HEIGHT], [0.5, 0.6 * HEIGHT]])

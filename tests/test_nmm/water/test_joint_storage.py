@@ -9,7 +9,7 @@ import nmm
 from nmm.errors import SceneError
 from nmm.testing import check_effect_of
 from nmm.testing.resumed.stopping import check_goes_on
-from nmm.verification.problems.joint_water import PressureInJoint
+from nmm.verification.problems.water.joint_water import PressureInJoint
 
 SHORT = PressureInJoint(0.3)
 BULK = 2.2e9

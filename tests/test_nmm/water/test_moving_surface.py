@@ -7,7 +7,7 @@ import nmm
 from nmm.errors import NmmError
 from nmm.formulation import Formulation
 from nmm.scene.read import parse_scene
-from nmm.verification.problems.ditches import slope_at_ditch
+from nmm.verification.problems.water.ditches import slope_at_ditch
 
 WEIGHT = 9810.0
 BOX = """

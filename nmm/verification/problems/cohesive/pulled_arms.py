@@ -18,7 +18,7 @@ from nmm.verification.problems.cohesive.double_cantilever import (
     opening,
     quadratic,
 )
-from nmm.verification.problems.crack_scenes import crack, pinned, pull
+from nmm.verification.problems.cracks.crack_scenes import crack, pinned, pull
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run

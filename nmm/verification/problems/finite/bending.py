@@ -9,7 +9,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
-from nmm.verification.problems.plasticity import pull
+from nmm.verification.problems.solids.plasticity import pull
 from nmm.verification.reading import converged, last_way, way
 
 if TYPE_CHECKING:

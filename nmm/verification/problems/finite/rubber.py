@@ -8,7 +8,7 @@ import numpy as np
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
 from nmm.verification.continuum import quarter
-from nmm.verification.problems.plasticity import roller
+from nmm.verification.problems.solids.plasticity import roller
 from nmm.verification.reading import converged, way
 
 if TYPE_CHECKING:

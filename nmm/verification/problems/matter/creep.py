@@ -11,7 +11,7 @@ from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
 from nmm.verification.continuum import quarter
-from nmm.verification.problems.plasticity import pull, roller
+from nmm.verification.problems.solids.plasticity import pull, roller
 from nmm.verification.reading import converged, way
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ import numpy as np
 
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
-from nmm.verification.problems.plasticity import roller
+from nmm.verification.problems.solids.plasticity import roller
 from nmm.verification.reading import converged
 
 if TYPE_CHECKING:

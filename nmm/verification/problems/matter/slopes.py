@@ -8,7 +8,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
-from nmm.verification.problems.columns import LeaningColumns
+from nmm.verification.problems.contact.columns import LeaningColumns
 from nmm.verification.problems.matter.joint_forces import JointForces
 from nmm.verification.text import G
 

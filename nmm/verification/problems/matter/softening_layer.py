@@ -10,7 +10,7 @@ from nmm.formulation import Formulation
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
 from nmm.verification.formulations import with_cover
-from nmm.verification.problems.plasticity import pull, roller
+from nmm.verification.problems.solids.plasticity import pull, roller
 from nmm.verification.reading import converged
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from nmm.scene.read import parse_scene
 from nmm.verification import text
 from nmm.verification.problems.cohesive.double_cantilever import ARM, NOTCH, UNIT, BentByMoments
 from nmm.verification.problems.cohesive.double_cantilever import opening as opening_of
-from nmm.verification.problems.crack_scenes import crack
+from nmm.verification.problems.cracks.crack_scenes import crack
 
 
 def shut_beam(case: BentByMoments, end: float) -> str:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from nmm.verification import text
-from nmm.verification.problems.nucleation import Box
+from nmm.verification.problems.cracks.nucleation import Box
 
 # One increment to the place where a crack begins, and no growth after it.
 ONCE = 'control = "toughness"\nmax_growth = 1e-3\n'

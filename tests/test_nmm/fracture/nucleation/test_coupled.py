@@ -12,7 +12,7 @@ from nmm.scene.read import parse_scene
 from nmm.stepping.run import Run
 from nmm.testing.scenes import turned_net
 from nmm.verification import text
-from nmm.verification.problems.nucleation import KIRSCH, led, ring
+from nmm.verification.problems.cracks.nucleation import KIRSCH, led, ring
 
 from .nucleating_scenes import ONCE, body, plate
 

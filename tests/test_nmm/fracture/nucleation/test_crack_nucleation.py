@@ -15,7 +15,7 @@ from nmm.stepping.prepare import prepare
 from nmm.stepping.run import Run
 from nmm.testing.resumed.stopping import check_resumed, stopped_after
 from nmm.testing.scenes import edge_support, turned_net
-from nmm.verification.problems.nucleation import led
+from nmm.verification.problems.cracks.nucleation import led
 
 from .nucleating_scenes import body, plate
 

@@ -5,7 +5,7 @@ import pytest
 
 import nmm
 from nmm.stepping.adaptive.meeting import _soonest
-from nmm.verification.problems.steps_by_error import REBOUNDS, StrainingBounce
+from nmm.verification.problems.motion.steps_by_error import REBOUNDS, StrainingBounce
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ from scipy.special import ellipj, ellipk
 import nmm
 from nmm.errors import NmmError
 from nmm.verification import text
-from nmm.verification.problems.time_integration import FREQUENCY, oscillator
+from nmm.verification.problems.motion.time_integration import FREQUENCY, oscillator
 
 CYCLES = 3.07
 GRAVITY = 9.81

@@ -7,7 +7,7 @@ import numpy as np
 
 from nmm.verification import text
 from nmm.verification.base import Checks, SceneCase, limit
-from nmm.verification.problems.crack_scenes import crack, net, pinned, pull
+from nmm.verification.problems.cracks.crack_scenes import crack, net, pinned, pull
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run

@@ -12,9 +12,9 @@ from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, limit
 from nmm.verification.continuum import quarter
 from nmm.verification.formulations import with_cover
-from nmm.verification.problems.cylinders import polar
-from nmm.verification.problems.heat_strain import pinned, rollers
-from nmm.verification.problems.water import water
+from nmm.verification.problems.heat.heat_strain import pinned, rollers
+from nmm.verification.problems.solids.cylinders import polar
+from nmm.verification.problems.water.water_pressures import water
 from nmm.verification.reading import last_way
 
 if TYPE_CHECKING:

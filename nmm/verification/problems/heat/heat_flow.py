@@ -20,8 +20,8 @@ from nmm.verification import text
 from nmm.verification.base import Case, Check, Checks, SceneCase, limit, order
 from nmm.verification.continuum import polygon, quarter
 from nmm.verification.formulations import chosen, with_cover
-from nmm.verification.problems.cylinders import polar
-from nmm.verification.problems.heat_strain import pinned, rollers, warm
+from nmm.verification.problems.heat.heat_strain import pinned, rollers, warm
+from nmm.verification.problems.solids.cylinders import polar
 from nmm.verification.reading import last_way
 from nmm.verification.series import Series
 

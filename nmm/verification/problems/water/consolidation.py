@@ -9,7 +9,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, limit
-from nmm.verification.problems.seepage import pressure
+from nmm.verification.problems.water.seepage import pressure
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run

@@ -9,7 +9,7 @@ from nmm.study.samples import fields
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, limit
 from nmm.verification.continuum import quarter
-from nmm.verification.problems.heat_strain import GLUE, ROUNDING, given, pinned, rollers, warm
+from nmm.verification.problems.heat.heat_strain import GLUE, ROUNDING, given, pinned, rollers, warm
 from nmm.verification.reading import last_way
 
 if TYPE_CHECKING:

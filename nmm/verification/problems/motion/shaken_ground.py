@@ -8,7 +8,7 @@ from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, limit
 from nmm.verification.formulations import with_cover
-from nmm.verification.problems.shaking import NEWMARK, SMALL, record
+from nmm.verification.problems.motion.shaking import NEWMARK, SMALL, record
 from nmm.verification.reading import way
 
 if TYPE_CHECKING:

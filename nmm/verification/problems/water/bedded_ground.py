@@ -8,7 +8,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, limit
-from nmm.verification.problems.plasticity import roller
+from nmm.verification.problems.solids.plasticity import roller
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run

@@ -10,7 +10,7 @@ import numpy as np
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
 from nmm.verification.continuum import quarter
-from nmm.verification.problems.plasticity import flowing, pull, roller
+from nmm.verification.problems.solids.plasticity import flowing, pull, roller
 from nmm.verification.reading import way
 
 if TYPE_CHECKING:

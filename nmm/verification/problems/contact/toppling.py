@@ -9,7 +9,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, limit
-from nmm.verification.problems.incline import acceleration, down, on_slope
+from nmm.verification.problems.contact.incline import acceleration, down, on_slope
 from nmm.verification.reading import last_way
 from nmm.verification.text import G
 

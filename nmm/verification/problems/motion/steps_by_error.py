@@ -8,7 +8,7 @@ import numpy as np
 
 from nmm.verification import text
 from nmm.verification.base import Case, Check, Checks, SceneCase
-from nmm.verification.problems.time_integration import FREQUENCY, oscillator
+from nmm.verification.problems.motion.time_integration import FREQUENCY, oscillator
 from nmm.verification.reading import rates
 
 if TYPE_CHECKING:

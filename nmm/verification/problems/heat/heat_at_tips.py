@@ -20,8 +20,8 @@ from nmm.verification import text
 from nmm.verification.base import Case, Check, Checks, SceneCase, order
 from nmm.verification.continuum import polygon
 from nmm.verification.formulations import chosen, with_cover
-from nmm.verification.problems.heat_flow import edge
-from nmm.verification.problems.heat_strain import warm
+from nmm.verification.problems.heat.heat_flow import edge
+from nmm.verification.problems.heat.heat_strain import warm
 from nmm.verification.series import Series
 
 if TYPE_CHECKING:

@@ -21,7 +21,7 @@ from nmm.verification.continuum import (
     on_mesh,
     polygon,
 )
-from nmm.verification.problems.cylinders import RESIDUAL, Cylinder
+from nmm.verification.problems.solids.cylinders import RESIDUAL, Cylinder
 
 
 class CylinderPressures(Cylinder):

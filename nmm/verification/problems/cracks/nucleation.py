@@ -10,7 +10,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase
-from nmm.verification.problems.crack_scenes import net, pinned
+from nmm.verification.problems.cracks.crack_scenes import net, pinned
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run

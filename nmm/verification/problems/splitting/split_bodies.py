@@ -8,7 +8,7 @@ import numpy as np
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
 from nmm.verification.formulations import with_cover
-from nmm.verification.problems.splitting import (
+from nmm.verification.problems.splitting.split_columns import (
     CRUSHED,
     PHI,
     TENSILE,

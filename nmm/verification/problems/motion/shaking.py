@@ -9,7 +9,7 @@ import numpy as np
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, limit
 from nmm.verification.formulations import with_cover
-from nmm.verification.problems.incline import on_slope
+from nmm.verification.problems.contact.incline import on_slope
 from nmm.verification.reading import way
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ import numpy as np
 
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase
-from nmm.verification.problems.crack_scenes import crack, pinned, pull
+from nmm.verification.problems.cracks.crack_scenes import crack, pinned, pull
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run

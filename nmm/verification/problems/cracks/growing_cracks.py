@@ -8,7 +8,7 @@ import numpy as np
 
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, holds, limit
-from nmm.verification.problems.crack_scenes import (
+from nmm.verification.problems.cracks.crack_scenes import (
     GrowingCrack,
     crack,
     energy_kept,

@@ -1,0 +1,1 @@
+"""Cracks in elastic bodies: intensities, kinks, growth, nucleation. For zones see `cohesive`."""

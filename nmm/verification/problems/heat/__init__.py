@@ -1,0 +1,1 @@
+"""Heat conduction and thermal strain, steady and in time."""

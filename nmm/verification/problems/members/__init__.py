@@ -1,0 +1,1 @@
+"""Bars with bond, bolts and reinforced beams."""

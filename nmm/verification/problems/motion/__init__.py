@@ -1,0 +1,1 @@
+"""Motion in time: rotation, integrators, steps by their error, waves, shaken ground."""

@@ -1,0 +1,1 @@
+"""Elastic and plastic bodies without contact: patch tests, rates of convergence, stress."""

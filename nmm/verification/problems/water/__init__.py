@@ -1,0 +1,1 @@
+"""Water pressures, seepage, consolidation and flow in joints."""
