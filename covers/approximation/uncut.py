@@ -20,6 +20,7 @@ def uncut(manifold: Manifold) -> CutCells:
         element_region=regions,
         element_body=number,
         element_whole=np.ones(len(elements), dtype=bool),
+        cell_width=np.sqrt(elements.areas),
         covers=number[:, None],
         cover_patch=number,
         cover_region=regions,

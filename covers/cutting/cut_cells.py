@@ -14,7 +14,7 @@ from covers.cutting.domain import Domain
 from covers.cutting.pieces import Pieces
 from covers.cutting.resolution import Resolution
 from covers.mathematical.base import Cover
-from integration.arrays import Bools, Ints
+from integration.arrays import Bools, Floats, Ints
 from integration.polygons import Polygons
 
 # Uncovered area of a region that is rounding: a share of its area, and a strip along its boundary
@@ -38,6 +38,8 @@ class CutCells:
     element_whole : (E,)
         whether the element is its cell, corner by corner in the cell's order: with
         ``cover.cell_shape`` this says which elements are congruent.
+    cell_width : (C,)
+        second longest side of each cell of the cover, m.
     covers : (E, k)
         physical covers of each element in the order of ``cover.cell_patches``; padded with -1 for
         meshless covers.
@@ -62,6 +64,7 @@ class CutCells:
     element_region: Ints
     element_body: Ints = field(metadata=numbers("body"))
     element_whole: Bools
+    cell_width: Floats
     covers: Ints = field(metadata=numbers("cover"))
     cover_patch: Ints = field(metadata=numbers("patch"))
     cover_region: Ints
@@ -78,6 +81,11 @@ class CutCells:
     def n_covers(self) -> int:
         """Number of physical covers."""
         return len(self.cover_patch)
+
+    @property
+    def tip_cell_width(self) -> Floats:
+        """Width of the cell about each tip (n,), m."""
+        return np.asarray(self.cell_width[self.element_cell[self.tips.element]])
 
     @property
     def n_bodies(self) -> int:
@@ -119,6 +127,7 @@ def assembled(
         element_region=region,
         element_body=body,
         element_whole=np.concatenate([part.whole for part in pieces]),
+        cell_width=cover.cell_width,
         covers=parts.of_element,
         cover_patch=parts.patch,
         cover_region=region[parts.first],

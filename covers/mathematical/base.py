@@ -151,6 +151,13 @@ class Cover(CoverType, ABC):
         return Polygons(points, np.arange(0, n * corners + 1, corners), np.arange(n + 1))
 
     @cached_property
+    def cell_width(self) -> Floats:
+        """Second longest side (C,) of each cell, m: in a uniform net the size it was laid with."""
+        corners = self.vertices[self.cell_vertices]
+        sides = np.hypot(*(np.roll(corners, -1, axis=1) - corners).transpose(2, 0, 1))
+        return np.asarray(np.sort(sides, axis=1)[:, -2])
+
+    @cached_property
     def cell_boxes(self) -> tuple[Floats, Floats]:
         """Lowest and highest coordinates (C, 2) of the cells, m."""
         corners = self.vertices[self.cell_vertices]

@@ -21,6 +21,7 @@ from nmm.fracture.growth.fronts import CrackFronts, nucleus_name
 from nmm.fracture.growth.grown import GrownSoFar
 from nmm.fracture.growth.refusals import refuse
 from nmm.fracture.growth.rule import GrowthRule
+from nmm.fracture.growth.small_holes import small_holes
 from nmm.fracture.growth.tips.intensities import Intensities
 from nmm.fracture.growth.tips.measured import MeasuredTips
 from nmm.fracture.growth.tips.parallel_stress import kink_without_end_shear, parallel_stress
@@ -75,8 +76,9 @@ class GrowingCracks(Effect):
 
     @property
     def caution(self) -> str:
-        """See `Effect.caution`: nuclei that are too short for the mesh or for the toughness."""
-        return self._nucleation.caution
+        """See `Effect.caution`: nuclei that are too short, holes that cells are too coarse for."""
+        holes = small_holes(self._setup, self._measured.tip, self.rule.max_growth)
+        return "; ".join(filter(None, (self._nucleation.caution, holes)))
 
     @property
     def about(self) -> str:

@@ -8,7 +8,6 @@ from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.stress_points import StressAt
-from nmm.fracture.surroundings import domain_radius
 
 # K of a crack along the load, which is zero, over sigma sqrt(pi r) with the mean stress and the
 # radius of the domain: computed values are 1e-6 to 3e-5 with four to ten cells over half the crack.
@@ -21,7 +20,7 @@ def loaded_tips(
     added: Sequence[StressAt],
     tip: Ints,
     equivalent: Floats,
-    radius: float,
+    radii: Floats,
 ) -> Ints:
     """Return the rows of the tips (k,) whose ``equivalent`` K (k,) is not merely numerical error.
 
@@ -33,8 +32,8 @@ def loaded_tips(
         (k,) numbers in ``model.cut.tips``.
     equivalent
         (k,) equivalent stress intensity factors (Pa m^1/2).
-    radius
-        Radius of the domains (m), before it is reduced to keep within the crack.
+    radii
+        (k,) radii of the domains (m).
     """
     centre = model.cut.elements.centroids
     stress = model.stress(state)
@@ -42,8 +41,8 @@ def loaded_tips(
         stress = stress + one(np.arange(len(centre)), centre, state.time)
     square = (stress[:, :2] ** 2).sum(axis=1) + 2 * stress[:, 2] ** 2
     known = [
-        _in_domain(model, centre, square, int(one), domain_radius(model.cut, int(one), radius))
-        for one in tip  # a handful
+        _in_domain(model, centre, square, *pair)
+        for pair in zip(tip.tolist(), radii.tolist(), strict=True)  # a handful
     ]
     return np.flatnonzero(equivalent > ERROR * np.reshape(known, len(tip)))
 

@@ -17,6 +17,9 @@ from nmm.fracture.intensity_rows import IntensityRows
 from nmm.fracture.stress_intensity import check_domain
 from nmm.fracture.surroundings import domain_radius
 
+CELLS = 4.0
+"""Radius of a domain in cells about its tip."""
+
 
 class MeasuredTips:
     """Computes the intensity factors at the tips of fronts; those of the last state are cached.
@@ -26,7 +29,7 @@ class MeasuredTips:
     tips
         (f,) number of the tip of each front in the cut; -1 without a tip.
     radius
-        Radius of the domains (m); None for four cells.
+        Radius of the domains (m); None for four of the cells that each tip lies in.
 
     Attributes
     ----------
@@ -38,7 +41,7 @@ class MeasuredTips:
 
     def __init__(self, setup: Setup, rule: GrowthRule, tips: Ints, radius: float | None) -> None:
         self._model, self._rule, self._gravity = setup.model, rule, setup.scene.gravity
-        self._size, self._asked = setup.formulation.cover.size, radius
+        self._asked = radius
         self.front = np.flatnonzero(tips >= 0)
         self.tip = tips[self.front]
         self.stresses: Sequence[StressAt] = ()
@@ -59,7 +62,7 @@ class MeasuredTips:
         """Return the intensity factors of the loaded tips alone."""
         found = self.in_state(state)
         given = self._model, state, self.stresses, found.tip, found.kink.equivalent
-        return found.take(loaded_tips(*given, self._radius))
+        return found.take(loaded_tips(*given, self._radii))
 
     def applied_forces(self, state: State) -> AppliedForces:
         """Return the forces of other effects on crack faces and within bodies."""
@@ -74,12 +77,13 @@ class MeasuredTips:
         share = self._rule.toughness_ratios(kink, stiff)
         return Intensities(self.front, self.tip, opening, sliding, stiff, kink, share)
 
-    @property
-    def _radius(self) -> float:
-        if self._asked is not None:
-            return self._asked
-        assert self._size is not None  # of meshes
-        return 4 * self._size
+    @cached_property
+    def _radii(self) -> Floats:
+        """Radius (k,) of the domain about each tip (m)."""
+        cut, cells = self._model.cut, CELLS * self._model.cut.tip_cell_width[self.tip]
+        wanted = cells if self._asked is None else np.full(len(self.tip), self._asked)
+        pairs = zip(self.tip.tolist(), wanted.tolist(), strict=True)  # a handful of tips
+        return np.array([domain_radius(cut, *pair) for pair in pairs])
 
     @property
     def _moduli(self) -> tuple[Floats, Floats]:
@@ -89,10 +93,11 @@ class MeasuredTips:
     def _rows(self) -> list[IntensityRows]:
         """The functionals that give the intensity factors of each tip."""
         found, cut = [], self._model.cut
-        for one, kappa in zip(self.tip, self._moduli[0], strict=True):  # a handful of tips
-            radius = domain_radius(cut, int(one), self._radius)
-            check_domain(cut, int(one), radius)
-            found.append(IntensityRows.of(self._model, int(one), radius, float(kappa)))
+        kappa = self._moduli[0].tolist()
+        each = zip(self.tip.tolist(), self._radii.tolist(), kappa, strict=True)
+        for tip, radius, constant in each:  # a handful of tips
+            check_domain(cut, tip, radius)
+            found.append(IntensityRows.of(self._model, tip, radius, constant))
         return found
 
     def _at(
