@@ -11,6 +11,10 @@ from nmm.results.sink import RESETS, RunData
 
 PERIODS = np.geomspace(0.02, 5.0, 100)
 """Periods (s) of a spectrum for which none are given."""
+OFTEN = 20
+"""Times in the shortest period at which answers are looked at."""
+LEAST = 4
+"""Times in a step of the record at which they are: forces turn as the shaking changes its sign."""
 
 
 @dataclass(frozen=True)
@@ -53,8 +57,9 @@ def response_spectrum(
 ) -> ResponseSpectrum:
     """Answer of oscillators to an acceleration of the ground that is linear between samples.
 
-    The answer is exact at the samples (Nigam and Jennings 1969), and followed on for a period
-    after the last one.
+    The answer is exact (Nigam and Jennings 1969) at the samples and at least twenty times in each
+    period between them, which miss the largest by 1.2 % at most, and so is its largest value after
+    the last of them, as oscillators swing on.
 
     Parameters
     ----------
@@ -77,24 +82,59 @@ def response_spectrum(
             f"response spectrum: ratio {ratio:g}, {len(periods)} periods, {len(times)} samples: "
             "expected a ratio from 0 to below 1, periods > 0, and times that increase: correct them"
         )
-    # After the shaking oscillators swing on: a period in forty parts.
-    rest = np.zeros(40)
-    steps = np.concatenate([np.diff(times), rest + float(periods.max()) / 40]).round(15)
-    starts = np.concatenate([acceleration[:-1], rest])
-    ends = np.concatenate([acceleration[1:], rest])
     omega = 2 * np.pi / periods
     state = np.zeros((2, len(periods)))
     moved, felt = np.zeros(len(periods)), np.zeros(len(periods))
     known: dict[float, tuple[Floats, Floats]] = {}
+    steps = np.diff(times).round(15).tolist()
     # Each step follows from the last one.
-    for step, start, end in zip(steps.tolist(), starts, ends, strict=True):
+    for step, start, end in zip(steps, acceleration[:-1], acceleration[1:], strict=True):
         if step not in known:
-            known[step] = _recurrence(omega, ratio, step)
+            known[step] = _within(omega, ratio, step)
         own, driven = known[step]
-        state = np.einsum("ijk,jk->ik", own, state) + driven[:, 0] * start + driven[:, 1] * end
-        moved = np.maximum(moved, np.abs(state[0]))
-        felt = np.maximum(felt, np.abs(2 * ratio * omega * state[1] + omega**2 * state[0]))
-    return ResponseSpectrum(periods, ratio, moved, felt)
+        path = np.einsum("pijk,jk->pik", own, state) + driven[:, :, 0] * start
+        path += driven[:, :, 1] * end
+        state = path[-1]
+        moved = np.maximum(moved, np.abs(path[:, 0]).max(axis=0))
+        felt = np.maximum(felt, np.abs(_force(omega, ratio, path[:, 0], path[:, 1])).max(axis=0))
+    force = _force(omega, ratio, *state)
+    # Without shaking the rate of the speed is that of this force, and the force swings as it does.
+    rate = _force(omega, ratio, state[1], -force)
+    return ResponseSpectrum(
+        periods,
+        ratio,
+        np.maximum(moved, _largest_later(omega, ratio, state[0], state[1])),
+        np.maximum(felt, _largest_later(omega, ratio, force, rate)),
+    )
+
+
+def _force(omega: Floats, ratio: float, way: Floats, speed: Floats) -> Floats:
+    """Return what spring and damper exert on a mass of 1 (m/s2): its absolute acceleration."""
+    return np.asarray(omega**2 * way + 2 * ratio * omega * speed)
+
+
+def _largest_later(omega: Floats, ratio: float, value: Floats, rate: Floats) -> Floats:
+    """Largest size (k,) of what swings freely from a value (k,) and its rate (k,) on.
+
+    It is the first extreme, as the later ones are smaller, or the value itself.
+    """
+    damped, fading = omega * np.sqrt(1 - ratio**2), ratio * omega
+    late = (rate + fading * value) / damped
+    angle = np.arctan2(rate, (fading * rate + omega**2 * value) / damped) % np.pi
+    swung = value * np.cos(angle) + late * np.sin(angle)
+    return np.asarray(np.maximum(np.abs(value), np.exp(-fading / damped * angle) * np.abs(swung)))
+
+
+def _within(omega: Floats, ratio: float, step: float) -> tuple[Floats, Floats]:
+    """Return `_recurrence` (p, 2, 2, k) from the start of a step to p times within it."""
+    parts = max(LEAST, int(np.ceil(OFTEN * step * omega.max() / 2 / np.pi)))
+    shares = np.arange(1, parts + 1) / parts
+    found = [_recurrence(omega, ratio, step * share) for share in shares.tolist()]
+    own, driven = (np.stack(one) for one in zip(*found, strict=True))
+    # The shaking at a share of the step is that share between both ends.
+    part = shares[:, None, None]
+    first, last = driven[:, :, 0] + (1 - part) * driven[:, :, 1], part * driven[:, :, 1]
+    return own, np.stack([first, last], axis=2)
 
 
 def _recurrence(omega: Floats, ratio: float, step: float) -> tuple[Floats, Floats]:

@@ -51,6 +51,46 @@ def test_samples_need_not_be_even():
     assert uneven.displacement == pytest.approx(even.displacement, rel=1e-3)
 
 
+@pytest.mark.parametrize("ratio", [0.0, 0.05, 0.4])
+def test_a_short_shock_is_answered_after_it(ratio):
+    """Of an impulse I the way is ``I / w exp(-z a / sqrt(1 - z^2))``, a the angle of cosine z.
+
+    Whatever the longest period of the spectrum: answers after the shaking were seen at fortieths
+    of it alone, and of those that are an eighth of it or less little was left.
+    """
+    periods = np.array([0.08, 0.1, 0.125, 0.2, 0.25, 0.3, 0.5, 1.0, 5.0])
+    shock = np.array([0.0, 5e-5, 1e-4]), np.array([0.0, 1e4, 0.0])
+    angle, root = np.arccos(ratio), np.sqrt(1 - ratio**2)
+    exact = 0.5 * periods / 2 / np.pi * np.exp(-ratio / root * angle)
+    found = response_spectrum(*shock, periods, ratio)
+    # The mass hardly moves while the shock lasts: (w t)^2 / 24 and w t z of it.
+    assert found.displacement == pytest.approx(exact, rel=5e-3)
+
+
+@pytest.mark.parametrize("period", [0.04, 0.07, 0.2, 1.3])
+@pytest.mark.parametrize("ratio", [0.0, 0.05])
+def test_answers_between_coarse_samples_are_seen(period, ratio):
+    """The record in its own 21 samples of 0.1 s is the same function as in 2001."""
+    coarse = response_spectrum(*finely(0.1), np.array([period]), ratio)
+    fine = response_spectrum(*finely(0.0005), np.array([period]), ratio)
+    assert coarse.displacement == pytest.approx(fine.displacement, rel=0.0124)
+    assert coarse.absolute_acceleration == pytest.approx(fine.absolute_acceleration, rel=0.0124)
+
+
+@pytest.mark.parametrize("beat", [0.3, 0.9, 1.1, 2.7])
+def test_ground_that_swings_harmonically_is_answered_as_its_closed_form_says(beat):
+    """Undamped from rest: ``u = A / (w^2 - W^2) (sin W t - W / w sin w t)``, over ten periods."""
+    period = 0.5
+    w, forced = 2 * np.pi / period, beat * 2 * np.pi / period
+    times = np.linspace(0, 5.0, 20001)
+    exact = (np.sin(forced * times) - beat * np.sin(w * times)) / (w**2 - forced**2)
+    speed = (forced * np.cos(forced * 5) - forced * np.cos(w * 5)) / (w**2 - forced**2)
+    swings_on = np.hypot(exact[-1], speed / w)
+    found = response_spectrum(times, np.sin(forced * times), np.array([period]), 0.0)
+    # Lines between samples leave (W dt)^2 / 12 of the shaking.
+    assert found.displacement[0] == pytest.approx(max(np.abs(exact).max(), swings_on), rel=1e-5)
+
+
 class Shaken:
     """A run whose monitor moves as the record says."""
 
