@@ -179,6 +179,7 @@ CASES = Registry[type[Case]](
         "TH9 slit": f"{_HOME}.heat.heat_at_tips:HeatAroundSlit",
         "BM1": f"{_HOME}.motion.shaking:ShakenMass",
         "BM2": f"{_HOME}.motion.shaken_ground:LayerOnRock",
+        "BM3": f"{_HOME}.motion.oblique_waves:ObliqueWave",
         "BM4": f"{_HOME}.motion.shaken_ground:LevelGround",
         "BM5": f"{_HOME}.motion.shaking:ShakenSlope",
         "VI1": f"{_HOME}.matter.creep:ShearCreep",
