@@ -32,6 +32,8 @@ class AppliedForces:
         global axes (N/m3).
     accelerations
         Unknowns (n,) of accelerations against which the mass resists (m/s2).
+    strains
+        Unknowns (n,) of displacements whose elastic stress acts beside that of the strain (m).
     """
 
     element: Ints
@@ -40,6 +42,7 @@ class AppliedForces:
     force: Floats
     densities: tuple[Density, ...] = ()
     accelerations: tuple[Floats, ...] = ()
+    strains: tuple[Floats, ...] = ()
 
     @classmethod
     def at(cls, element: Ints, position: Floats, force: Floats) -> Self:
@@ -56,6 +59,11 @@ class AppliedForces:
     def of_acceleration(cls, acceleration: Floats) -> Self:
         """Return the inertia of an acceleration, unknowns (n,) in body axes, alone."""
         return replace(cls.of_densities(), accelerations=(acceleration,))
+
+    @classmethod
+    def of_strain(cls, displacement: Floats) -> Self:
+        """Return the elastic stress of a displacement, unknowns (n,) in body axes, alone."""
+        return replace(cls.of_densities(), strains=(displacement,))
 
     @classmethod
     def on(cls, model: Model, place: Place, force: Floats) -> Self:
@@ -85,7 +93,8 @@ def joined(parts: Iterable[AppliedForces]) -> AppliedForces:
     )
     densities = tuple(density for one in some for density in one.densities)
     accelerations = tuple(field for one in some for field in one.accelerations)
-    return AppliedForces(element, start, end, force, densities, accelerations)
+    strains = tuple(field for one in some for field in one.strains)
+    return AppliedForces(element, start, end, force, densities, accelerations, strains)
 
 
 AppliedForcesIn = Callable[[State], AppliedForces]

@@ -128,7 +128,7 @@ class IntensityRows:
         return np.asarray(self.stiff / 2 * np.sum(parts, axis=0))
 
     def of_applied_forces(self, pushes: AppliedForces, frames: Frames) -> Floats:
-        """Contribution (2,) of point forces, tractions on crack faces, body forces and inertia."""
+        """Contribution (2,) of forces at points, on crack faces and volume, inertia and damping."""
         body = np.full(len(pushes), self.body)
         turned = replace(pushes, force=frames.to_body(body, pushes.force))
         found = self.stiff / 2 * self.interaction.of_point_forces(turned) / self.model.thickness
@@ -136,6 +136,8 @@ class IntensityRows:
             found = found + self._of_densities(partial(self._within, density, frames))
         for acceleration in pushes.accelerations:
             found = found + self.of_acceleration(acceleration)
+        for strain in pushes.strains:
+            found = found + self.intensities(strain, self.model.pressure(strain)) - self.fixed
         return found
 
     def _within(self, density: Density, frames: Frames, part: ForceWeights) -> Floats:

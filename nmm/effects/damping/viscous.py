@@ -8,7 +8,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.assembly.applied_forces import AppliedForces
+from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Instant, Setup
@@ -58,10 +58,17 @@ class ViscousDamping(Effect):
         return self._mass > 0
 
     def applied_forces(self, state: State) -> AppliedForces:
-        """See `Effect.applied_forces`: those of mass, as its inertia against ``a v``."""
-        if not self._mass:
-            return AppliedForces.of_densities()
-        return AppliedForces.of_acceleration(self._mass * state.velocity)
+        """See `Effect.applied_forces`: the inertia of ``a v`` and the stress of ``b v``."""
+        return self._forces(state, state.velocity)
+
+    def _forces(self, state: State, damped: Floats) -> AppliedForces:
+        """Those of a velocity that the mass term damps, unknowns (n,)."""
+        parts = []
+        if self._mass:
+            parts.append(AppliedForces.of_acceleration(self._mass * damped))
+        if self._stiffness:
+            parts.append(AppliedForces.of_strain(self._stiffness * state.velocity))
+        return joined(parts)
 
     def damping(self, state: State) -> csc_array:
         """See `Effect.damping`; always the same object."""
@@ -102,8 +109,8 @@ class GroundDamping(ViscousDamping):
 
     def applied_forces(self, state: State) -> AppliedForces:
         """See `Effect.applied_forces`: of the velocity against that of the ground."""
-        beside = state.velocity - self._carried(state, self._velocity(state.time))
-        return AppliedForces.of_acceleration(self._mass * beside)
+        ground = self._carried(state, self._velocity(state.time))
+        return self._forces(state, state.velocity - ground)
 
     def work(self, before: State, after: State) -> float:
         """Work (J) of the mean of that force at both ends of the step."""
