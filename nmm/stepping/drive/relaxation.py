@@ -19,7 +19,7 @@ from nmm.effects.base import Instant
 from nmm.integrators.shi import Shi
 from nmm.stepping.bounds.static_theorem import carried
 from nmm.stepping.drive.pace import Pace
-from nmm.stepping.drive.settling import COLLAPSE
+from nmm.stepping.drive.settling import COLLAPSE, anchored
 from nmm.stepping.step.anchors import block_name, largest_mover
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
@@ -33,6 +33,8 @@ GATHERS, GATHERED = 4.0, 0.03
 # Over this way one that cannot stand where it starts, by the static theorem, has fallen, though it
 # might come to lie on something further on.
 FALLEN = 0.25
+# What is nearer than this share of the way that ends the search goes to and fro, and does not fall.
+GONE_FROM = 0.5
 # Steps after which the static theorem is evaluated again where blocks must rest near.
 LOOK = 20
 # Up to this way the motion that is told of a block that moves freely is looked for.
@@ -109,6 +111,7 @@ class _Search:
         joined = stepper.discretisation.joined(Inertia(self.heavy, kinematics.turns))
         self.moving = Stepper(joined, Shi(), stepper.solver, kinematics)
         self.moving.budget = stepper.budget
+        self.origin = self.moving.place(state)
         self.pace = Pace(_first_length(self.heavy, stepper.plan.force(state, end), self.size))
         self.proof = carried(stepper, state, end.load_factor)
         self.near, self.farthest = near, (COLLAPSE if near else 1.0) * self.size
@@ -132,7 +135,9 @@ class _Search:
         """Take a step, and say where the search ends by it; None where it goes on."""
         self._take(found, length)
         if self._gathers(found, length) and self.way > GATHERED * self.size:
-            return self._falls(f"it gathers speed: {self._who()}")
+            return self._falls(
+                f"it gathers speed: {self._who()}" if self.stands else self._fallen()
+            )
         if not self.stands and self.way > FALLEN * self.size:
             return self._falls(self._fallen())
         still = replace(self.state, velocity=np.zeros_like(self.state.velocity))
@@ -180,8 +185,11 @@ class _Search:
     def _given_up(self) -> RelaxationEnd:
         if not self.stands:
             return self._falls(self._fallen())
-        falls = self.way > self.farthest
-        return RelaxationEnd(self.state, self.steps, False, self._who(), falls)
+        gone = float(np.abs(self.moving.place(self.state) - self.origin).max())
+        far = self.way > self.farthest
+        falls = far and gone > GONE_FROM * self.farthest
+        said = f"blocks went {self.way:.3g} m to and fro; " if far and not falls else ""
+        return RelaxationEnd(self.state, self.steps, False, said + self._who(), falls)
 
     def _falls(self, sentence: str) -> RelaxationEnd:
         return RelaxationEnd(self.state, self.steps, False, sentence, True)
@@ -191,12 +199,21 @@ class _Search:
         return f"{self.proof.sentence}; {self._who()}"
 
     def _who(self) -> str:
-        return _who(self.moving, self.first, self.names)
+        carries = self.proof is not None and self.proof.fails and (self.proof.factor or 0.0) > 0
+        return _who(self.moving, self.first, self.names, "lower the load, or " if carries else "")
 
 
 def _holds(stepper: Stepper, state: State, end: Instant) -> bool:
-    """Whether there is equilibrium without mass near ``state``."""
+    """Whether there is equilibrium without mass near ``state``, with anchors where it needs them.
+
+    The matrix knows nothing of what the turn of forces alone holds, as it does a block that hangs.
+    """
     alone = stepper.attempt(state, end, None)
+    if not (alone.converged and alone.motion <= SLOW * stepper.size):
+        start = stepper.remember()
+        alone = anchored(stepper, state, end, "stop").attempt
+        stepper.restore(start)
+        stepper.anchored = False
     return alone.converged and alone.motion <= SLOW * stepper.size
 
 
@@ -216,8 +233,11 @@ def _first_length(model: Model, force: Floats, size: float) -> float:
     return float(np.sqrt(2 * FIRST * size / fastest)) if fastest > 0 else 1.0
 
 
-def _who(moving: Stepper, attempt: Attempt | None, names: Sequence[str]) -> str:
-    """Name the block that moves most, and how; one that nothing touches moves freely."""
+def _who(moving: Stepper, attempt: Attempt | None, names: Sequence[str], first: str = "") -> str:
+    """Name the block that moves most, and how; one that nothing touches moves freely.
+
+    ``first`` is what to do before supports are added to one that is touched.
+    """
     if attempt is None:
         return "no step converged"
     if not attempt.increment.any():
@@ -227,8 +247,8 @@ def _who(moving: Stepper, attempt: Attempt | None, names: Sequence[str]) -> str:
     name = block_name(model, body, names)
     if _touched(model, attempt, body):
         return (
-            f"block {name} moves most: {how}; the blocks that touch it do not hold it: add "
-            "supports, friction or strength, or [inertia] to follow its motion"
+            f"block {name} moves most: {how}; the blocks that touch it do not hold it: {first}"
+            "add supports, friction or strength, or [inertia] to follow its motion"
         )
     return f"block {name} can move freely: {how}; add a support or friction, or [inertia]"
 

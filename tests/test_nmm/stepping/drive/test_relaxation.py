@@ -100,3 +100,37 @@ def test_what_friction_took_on_the_way_to_rest_is_told():
     sentences = [nmm.run(nmm.parse_scene(text)).summary.sentence for text in (slides, LOOSE)]
     assert all("brought to rest" in sentence for sentence in sentences)
     assert ["by another way" in sentence for sentence in sentences] == [True, False]
+
+
+ANCHORED = (
+    LOOSE.replace("1, 0.01", "1, 0").replace("2, 0.01", "2, 0")
+    + """
+[[springs]]
+name = "anchor"
+points = [[1.5, -0.5], [1.5, 0.95]]
+blocks = ["base", "above"]
+stiffness = %s
+[[loads]]
+name = "pull"
+kind = "point"
+block = "above"
+point = [1.5, 0.9]
+force = [0, 30000]
+"""
+)
+
+
+def test_a_block_that_hangs_on_one_anchor_is_at_rest():
+    # The anchor takes what the weight leaves of 30 kN; acting below, the weight brings it back.
+    left = 30000 - 2000 * 9.81 * 1.01
+    run = nmm.run(nmm.parse_scene(ANCHORED % 1e5))
+    assert run.summary.status == "converged", run.summary.sentence
+    lift = run.frames[-1].points[-4:] - run.frames[0].points[-4:]
+    assert lift[:, 1] == pytest.approx(left / 1e5, rel=1e-3)  # strain of the block: 1e-5 m
+    assert run.history["springs:anchor:force"][-1] == pytest.approx(left, rel=1e-6)
+
+
+def test_a_block_that_swings_about_its_place_is_no_failed_structure():
+    # It hangs 0.52 m above the ground, where steps without the turn of forces do not find it.
+    run = nmm.run(nmm.parse_scene(ANCHORED % 2e4))
+    assert run.summary.status in ("converged", "failed")

@@ -111,6 +111,17 @@ def test_a_block_pushed_over_is_a_failed_structure_with_its_proof():
     assert found.failure_factor == pytest.approx(0.25, rel=0.006)
 
 
+@pytest.mark.parametrize(
+    ("height", "friction", "right"), [(1.8, 60, 0.5 / 1.8), (0.2, 30, 0.57735)]
+)
+def test_a_block_led_at_once_beyond_its_limit_is_told_what_it_carries(height, friction, right):
+    found = run(BLOCKS % friction + PUSH % (height, WEIGHT))
+    assert found.status == "collapsed"
+    said = float(found.sentence.split("no more than load factor ")[1].split(" ")[0])
+    assert said == pytest.approx(right, rel=1e-5)
+    assert "lower the load" in found.sentence
+
+
 def test_a_block_on_a_slope_too_steep_for_it_is_a_failed_structure():
     # arctan(3 / 8) is 20.6 degrees.
     turned = BLOCKS.replace("[gravity]", "[gravity]\nacceleration = [3.0, -8.0]")
