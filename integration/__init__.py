@@ -1,1 +1,4 @@
-"""Exact integrals and point rules on polygons, segments and around crack tips."""
+"""Exact integrals and point rules on polygons, segments and around crack tips.
+
+No covers, no mechanics.
+"""

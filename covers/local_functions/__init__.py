@@ -1,4 +1,5 @@
 """Local functions of physical covers.
 
-Polynomials, and the singular functions of crack tips and corners.
+Polynomials, and the singular functions of crack tips and corners. Their products with weights are
+in `approximation`.
 """

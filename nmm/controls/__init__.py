@@ -1,1 +1,4 @@
-"""What grows in a static run in place of the load: a displacement, an opening, energy."""
+"""What grows in a static run in place of the load: a displacement, an opening, energy.
+
+How a path is followed is in `stepping.control`.
+"""

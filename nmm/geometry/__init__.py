@@ -1,4 +1,7 @@
-"""Geometry: the blocks of a scene from corners, tessellations and joint sets; imports; checks."""
+"""Geometry: the blocks of a scene from corners, tessellations and joint sets; imports; checks.
+
+Cutting by covers is in `covers.cutting`.
+"""
 
 # Eager, as the module `regions` would else hide the function of the same name.
 from nmm.geometry.blocks import Regions

@@ -1,1 +1,1 @@
-"""Heat conduction in a scene, and thermal strain."""
+"""Heat conduction in a scene, and thermal strain. How fields diffuse is in `diffusion`."""

@@ -1,1 +1,4 @@
-"""Stress-strain laws of the solid."""
+"""Stress-strain laws of the solid.
+
+Laws of joints are in `interfaces`; quadrature points are in `assembly`.
+"""

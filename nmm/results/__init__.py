@@ -1,4 +1,7 @@
-"""Run folders, frames, summaries and ParaView files."""
+"""Run folders, frames, summaries and ParaView files.
+
+What they hold is collected in `stepping.reports`; pictures are in `plots`.
+"""
 
 from importlib import import_module
 from typing import TYPE_CHECKING

@@ -1,4 +1,7 @@
-"""Scenes: schema and reader of scene files, units at the door, canonical text and hash."""
+"""Scenes: schema and reader of scene files, units at the door, canonical text and hash.
+
+Nothing is built or computed here.
+"""
 
 from __future__ import annotations
 

@@ -1,1 +1,4 @@
-"""Linear solvers behind one interface, and the choice among them."""
+"""Linear solvers behind one interface, and the choice among them.
+
+Contact is solved in `contact`, nonlinear matter in `stepping.step`.
+"""

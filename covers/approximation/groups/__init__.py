@@ -1,1 +1,4 @@
-"""Element groups: values, gradients and integrals of elements of the same local functions."""
+"""Element groups: values, gradients and integrals of elements of the same local functions.
+
+Unknowns are numbered in `approximation`.
+"""

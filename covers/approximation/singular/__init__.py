@@ -1,1 +1,4 @@
-"""Singular points: covers that carry their functions, branches of the angle, quadrature."""
+"""Singular points: covers that carry their functions, branches of the angle, quadrature.
+
+The functions themselves are in `local_functions`.
+"""

@@ -1,1 +1,1 @@
-"""Damping of the motion of matter and at its boundaries."""
+"""Damping of the motion of matter and at its boundaries. Dashpots are in `members`."""

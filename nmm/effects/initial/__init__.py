@@ -1,1 +1,4 @@
-"""What is there before anything moves: velocities and stress."""
+"""What is there before anything moves: velocities and stress.
+
+A start in equilibrium is sought in `stepping.drive`.
+"""

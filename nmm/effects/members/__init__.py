@@ -1,1 +1,4 @@
-"""What connects points: springs, dashpots, bars with bond, foundations; and masses at points."""
+"""What connects points: springs, dashpots, bars with bond, foundations; and masses at points.
+
+No supports.
+"""

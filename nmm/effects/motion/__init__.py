@@ -1,1 +1,4 @@
-"""Motion of the ground: records, boundaries that waves leave through, the free field."""
+"""Motion of the ground: records, boundaries that waves leave through, the free field.
+
+Integration in time is in `integrators`.
+"""

@@ -1,1 +1,4 @@
-"""Mixed-mode criteria: the kink angle of a crack, and its equivalent stress intensity factor."""
+"""Mixed-mode criteria: the kink angle of a crack, and its equivalent stress intensity factor.
+
+Intensities are in `growth.tips`.
+"""

@@ -1,1 +1,4 @@
-"""Crack growth: fronts and their intensities, the growth rule, new segments, growth in time."""
+"""Crack growth: fronts and their intensities, the growth rule, new segments, growth in time.
+
+Criteria are in `criteria`.
+"""

@@ -1,1 +1,1 @@
-"""Returns of stresses to yield surfaces, all points at once."""
+"""Returns of stresses to yield surfaces, all points at once. No laws."""

@@ -1,1 +1,1 @@
-"""One picture of a run a file."""
+"""One picture of a run a file. Those of studies are in `plots`."""

@@ -1,1 +1,1 @@
-"""Files for viewers: ParaView."""
+"""Files for viewers: ParaView. Pictures are in `plots`."""

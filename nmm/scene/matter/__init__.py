@@ -1,1 +1,1 @@
-"""Materials and interfaces of a scene."""
+"""Materials and interfaces of a scene. Their laws are in `materials` and `interfaces`."""

@@ -1,1 +1,4 @@
-"""Static runs along a path: event by event, up and down the load."""
+"""Static runs along a path: event by event, up and down the load.
+
+What is controlled is in `controls`.
+"""

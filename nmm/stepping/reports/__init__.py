@@ -1,1 +1,4 @@
-"""What a run hands over: frames, history, energies booked step by step."""
+"""What a run hands over: frames, history, energies booked step by step.
+
+Files are written in `results`.
+"""

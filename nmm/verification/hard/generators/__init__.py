@@ -1,1 +1,4 @@
-"""Classes of hard cases, one subject a file: each yields scenes with their oracles."""
+"""Classes of hard cases, one subject a file: each yields scenes with their oracles.
+
+Oracles are in `oracles`.
+"""
