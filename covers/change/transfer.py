@@ -106,7 +106,7 @@ class Transfer:
         return self.inherited < 0
 
     @cached_property
-    def loose(self) -> Bools:
+    def inherits_nothing(self) -> Bools:
         """(B,) whether a body inherits nothing, so that its mean motion determines its place."""
         new = self.kin.new
         body = new.unknown_body[~self._free]
@@ -162,11 +162,12 @@ class Transfer:
 
     def _without_rigid(self, free: Floats) -> Floats:
         """Remove the mean rigid motion of bodies that inherit nothing from the free unknowns."""
-        if not self.loose.any():
+        if not self.inherits_nothing.any():
             return free
         unknowns = np.zeros(len(self._free))
         unknowns[self._free] = free
-        modes = csc_array(self.kin.new.rigid_modes @ diags_array(np.repeat(self.loose, 3) * 1.0))
+        chosen = diags_array(np.repeat(self.inherits_nothing, 3) * 1.0)
+        modes = csc_array(self.kin.new.rigid_modes @ chosen)
         weighed = csr_array((self._mass @ modes).T)
         motion = by_body(csr_array(weighed @ modes), weighed @ unknowns)
         return np.asarray((unknowns - modes @ motion)[self._free])

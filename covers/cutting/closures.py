@@ -86,12 +86,12 @@ def _rays_of_blocks(faces: Faces) -> _Rays:
     outside &= faces.cell < 0
     ending = np.flatnonzero(tip[half.origin] & ~outside[half.loop])
     backward = faces.steps[half.head[ending]] - faces.steps[half.origin[ending]]
-    loose = np.flatnonzero((degree > 0) & several & ~anchored[block])
+    detached = np.flatnonzero((degree > 0) & several & ~anchored[block])
     return _joined(
         [
             _Rays(half.origin[ending], -backward, np.full(len(ending), TIP)),
-            _sideways(faces.steps, loose, block, -1.0, LEFT),
-            _sideways(faces.steps, loose, block, 1.0, RIGHT),
+            _sideways(faces.steps, detached, block, -1.0, LEFT),
+            _sideways(faces.steps, detached, block, 1.0, RIGHT),
         ]
     )
 

@@ -80,33 +80,33 @@ def _settled_points(
     from scipy.spatial import cKDTree
 
     places = points.copy()
-    loose = np.ones(len(points), dtype=bool)
+    unmoved = np.ones(len(points), dtype=bool)
     for targets in (boundary.start, vertices):  # corners of regions have priority over the mesh
         if len(targets):
             distance, nearest = cKDTree(targets).query(places, distance_upper_bound=tolerance)
-            found = loose & np.isfinite(distance)
+            found = unmoved & np.isfinite(distance)
             places[found] = targets[np.asarray(nearest)[found]]
-            loose &= ~found
-    places, loose = _clustered(places, loose, tolerance)
+            unmoved &= ~found
+    places, unmoved = _clustered(places, unmoved, tolerance)
     for segments in (boundary, edges):
-        wanted = np.flatnonzero(loose)
+        wanted = np.flatnonzero(unmoved)
         row, foot = _feet(places[wanted], segments, tolerance)
         places[wanted[row]] = foot
-        loose[wanted[row]] = False
+        unmoved[wanted[row]] = False
     return places
 
 
 def _clustered(
-    places: Floats, loose: npt.NDArray[np.bool_], tolerance: float
+    places: Floats, unmoved: npt.NDArray[np.bool_], tolerance: float
 ) -> tuple[Floats, npt.NDArray[np.bool_]]:
     """Merge points within the tolerance of each other: to one already moved, or to the first."""
     from scipy.spatial import cKDTree
 
     pairs = cKDTree(places).query_pairs(tolerance, output_type="ndarray").reshape(-1, 2)
     group = components(len(places), pairs[:, 0], pairs[:, 1])
-    order = np.lexsort((loose, group))
+    order = np.lexsort((unmoved, group))
     leader = order[np.unique(group[order], return_index=True)[1]][group]
-    return np.where(loose[:, None], places[leader], places), loose & loose[leader]
+    return np.where(unmoved[:, None], places[leader], places), unmoved & unmoved[leader]
 
 
 def _feet(points: Floats, segments: Segments, tolerance: float) -> tuple[Ints, Floats]:

@@ -93,7 +93,7 @@ def _disc(name: str) -> float:
     return total
 
 
-def loose_discs(cover: MovingLeastSquares, cut: CutCells) -> Bools:
+def undetermined_discs(cover: MovingLeastSquares, cut: CutCells) -> Bools:
     """Return the discs (N,) whose fit is ill-determined at points of some element."""
     found = np.zeros(cover.n_patches + 1, dtype=bool)
     rule = polygon_rule(cut.elements, ORDER)

@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 
 # Default radius of the discs in spacings of a regular grid of nodes, by degree of the basis.
 RADII = {0: 1.5, 1: 2.0, 2: 3.0, 3: 4.0}
-# Least sum of kernels at a point, and least eigenvalue of scaled moments, by degree of the basis.
-LEAST_KERNELS = 0.02
-FIXED = {0: 0.0, 1: 1e-2, 2: 1e-3, 3: 1e-4}
+# Smallest sum of kernels at a point, and eigenvalue of its scaled moments by degree of the basis.
+MIN_KERNEL_SUM = 0.02
+MIN_EIGENVALUE = {0: 0.0, 1: 1e-2, 2: 1e-3, 3: 1e-4}
 # Factor by which discs are enlarged, and the largest number of times.
 GROWTH, ROUNDS = 1.25, 8
 
@@ -139,18 +139,18 @@ class MovingLeastSquares(Cover):
         Raises
         ------
         ValueError
-            A degree out of 0 to 3, an unknown kernel, a cell whose middle is held by fewer discs
-            than the basis has functions.
+            A degree out of 0 to 3, an unknown kernel, a cell whose centre lies in fewer discs than
+            the basis has functions.
         """
         _check_options(degree, kernel)
         patches = discs_of_cells(nodes, radius, vertices[cell_vertices])
         middle = vertices[cell_vertices].mean(axis=1)
         away = np.linalg.norm(nodes[patches] - middle[:, None], axis=2)
-        held = ((away < radius[patches]) & (patches >= 0)).sum(axis=1)
-        if (held < count(degree)).any():
-            cell = int(np.argmin(held))
+        active = ((away < radius[patches]) & (patches >= 0)).sum(axis=1)
+        if (active < count(degree)).any():
+            cell = int(np.argmin(active))
             raise ValueError(
-                f"cell {cell} at {middle[cell].tolist()}: {held[cell]} discs: at least "
+                f"cell {cell} at {middle[cell].tolist()}: {active[cell]} discs: at least "
                 f"{count(degree)} expected for a basis of degree {degree}: enlarge the radius"
             )
         used = patches[patches >= 0]
@@ -191,10 +191,10 @@ class MovingLeastSquares(Cover):
         return self._about(cells, points)[2]
 
     def determined(self, cells: Ints, points: Floats) -> npt.NDArray[np.bool_]:
-        """Whether (m,) discs of ``cells`` hold `LEAST_KERNELS` of a point, and fix its fit well.
+        """Whether (m,) the discs of ``cells`` determine the fit at a point.
 
-        The fit is well fixed when the moments of the basis, scaled to a diagonal of ones, have no
-        eigenvalue below `FIXED` of the degree.
+        The kernels add up to `MIN_KERNEL_SUM`, and the moment matrix, scaled to a diagonal of ones,
+        has no eigenvalue below `MIN_EIGENVALUE` of the degree.
         """
         away, radius, value, _ = self._about(cells, points)
         length = radius.max(axis=1, initial=0.0)
@@ -202,31 +202,33 @@ class MovingLeastSquares(Cover):
         moment = np.einsum("mk,mka,mkb->mab", value, basis, basis)
         scale = 1 / np.sqrt(np.maximum(np.einsum("maa->ma", moment), 1e-300))
         least = np.linalg.eigvalsh(moment * scale[:, :, None] * scale[:, None, :])[:, 0]
-        return np.asarray((value.sum(axis=1) >= LEAST_KERNELS) & (least >= FIXED[self.degree]))
+        enough = value.sum(axis=1) >= MIN_KERNEL_SUM
+        return np.asarray(enough & (least >= MIN_EIGENVALUE[self.degree]))
 
     def settled(self, cut: CutCells, again: Recut) -> tuple[MovingLeastSquares, CutCells]:
-        """See `Cover.settled`: leave out discs that reach too little, enlarge the others there.
+        """See `Cover.settled`: leave out discs that reach too little, enlarge their neighbours.
 
         Raises
         ------
         ValueError
             Points whose fit no enlarged disc determines.
         """
-        from covers.mathematical.disc_supports import fitted_discs, loose_discs
+        from covers.mathematical.disc_supports import fitted_discs, undetermined_discs
 
         cover, radius = self, self.radius
-        for _ in range(ROUNDS):  # each lets the discs that are wanted reach farther
+        for _ in range(ROUNDS):  # each enlarges the discs of points whose fit is undetermined
             kept, pieces = fitted_discs(cover, cut)
-            loose = loose_discs(kept, pieces)
-            if not loose.any():
+            undetermined = undetermined_discs(kept, pieces)
+            if not undetermined.any():
                 return replace(kept, enlarged=int((radius > self.radius).sum())), pieces
-            radius = np.where(loose, GROWTH * radius, radius)
+            radius = np.where(undetermined, GROWTH * radius, radius)
             cover = self._wider(radius)
             cut = again(cover)
-        at = self.patch_centre[np.flatnonzero(loose)[0]]
+        at = self.patch_centre[np.flatnonzero(undetermined)[0]]
         raise ValueError(
-            f"moving least squares: {int(loose.sum())} discs, the first about {at.tolist()}: do "
-            f"not determine a fit of degree {self.degree} though enlarged {GROWTH**ROUNDS:.3g} "
+            f"moving least squares: {int(undetermined.sum())} discs, the first about "
+            f"{at.tolist()}: do not determine a fit of degree {self.degree} though enlarged "
+            f"{GROWTH**ROUNDS:.3g} "
             "times: use a smaller size, a lower degree of the basis or a cover of triangles"
         )
 
@@ -236,7 +238,7 @@ class MovingLeastSquares(Cover):
         return replace(self, cell_patches=cells, patch_size=radius, radius=radius)
 
     def _about(self, cells: Ints, points: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-        """Ways (m, k, 2) from the nodes, radii, kernels (m, k) and their gradients (m, k, 2).
+        """Offsets (m, k, 2) from the nodes, radii, kernels (m, k) and their gradients (m, k, 2).
 
         Kernels are zero where the patch is not active.
         """

@@ -231,12 +231,12 @@ def _elements(setup: Setup, block: str | None) -> Bools:
 def _refuse_undetermined(
     setup: Setup, problem: DiffusionProblem, what: tuple[str, str, str]
 ) -> None:
-    loose = undetermined(problem)
-    if not len(loose):
+    bodies = undetermined(problem)
+    if not len(bodies):
         return
     key, word, remedy = what
     manifold = setup.model.manifold
-    region = manifold.element_region[manifold.element_body == loose[0]][0]
+    region = manifold.element_region[manifold.element_body == bodies[0]][0]
     value = f"block {setup.region_name[region]}: nothing holds its {word}"
     expected = f"a {word} on it, or a joint that conducts to a block that has one"
     raise SceneError(Fault(setup.scene.source.place(key), value, expected, remedy))

@@ -148,7 +148,7 @@ class InterfaceLaw(ABC):
     def initial(self, bonded: Bools) -> dict[str, Floats]:
         """Return the history (m,) of contacts that a bond holds, or none."""
         return {
-            name: np.where(bonded, column.bonded, column.loose).astype(
+            name: np.where(bonded, column.bonded, column.unbonded).astype(
                 bool if name == "bonded" else float
             )
             for name, column in (KEPT | dict(self.columns)).items()
@@ -157,9 +157,9 @@ class InterfaceLaw(ABC):
     @final
     def broken(self, history: History) -> dict[str, Floats]:
         """Return the history (m,) of bonds that broke at once."""
-        loose = self.initial(np.zeros(len(history["bonded"]), dtype=bool))
-        lost = {name for name, column in self.columns.items() if column.loose != column.bonded}
-        return dict(history) | {name: loose[name] for name in ("bonded", *lost)}
+        unbonded = self.initial(np.zeros(len(history["bonded"]), dtype=bool))
+        lost = {name for name, column in self.columns.items() if column.unbonded != column.bonded}
+        return dict(history) | {name: unbonded[name] for name in ("bonded", *lost)}
 
     def friction(self, history: History) -> Floats:
         """Return the tangent (m,) of the friction angle: residual where the bond is broken."""

@@ -14,7 +14,7 @@ class HistoryColumn:
 
     Attributes
     ----------
-    bonded, loose
+    bonded, unbonded
         Its value at the start, where a bond holds and where none does.
     metres
         Whether it is a length (m), small or large beside the gaps of a scene; otherwise it has no
@@ -26,7 +26,7 @@ class HistoryColumn:
     """
 
     bonded: float = 0.0
-    loose: float = 0.0
+    unbonded: float = 0.0
     metres: bool = False
     grows: bool = True
     most: float = float("inf")
@@ -34,7 +34,7 @@ class HistoryColumn:
 
 CUMULATIVE_SLIP = HistoryColumn(metres=True)
 """Displacement slid under load, back and forth added (m)."""
-DAMAGE = HistoryColumn(loose=1.0, most=1.0)
+DAMAGE = HistoryColumn(unbonded=1.0, most=1.0)
 """0 of a whole bond, 1 of a broken one and of a contact that never had one."""
 KEPT = {"bonded": HistoryColumn(1.0, grows=False), "plastic_slip": HistoryColumn(grows=False)}
 """Columns of every law: whether a bond holds, and the slip that is no longer elastic (m)."""

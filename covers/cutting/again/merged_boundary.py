@@ -28,7 +28,7 @@ def merged_boundary(
     now = np.full(len(local) + 1, -1, dtype=np.int64)
     now[new] = rank[len(stays) :]
     beside = np.flatnonzero(~parts.fresh[local.element])
-    twin, known = _twins(old, stays, local, beside, parts)
+    twin, known = _unchanged_edges(old, stays, local, beside, parts)
     now[beside[known]] = was[twin[known]]
 
     found = {name: _linked(old, local, name, was, now, len(order)) for name in LINKS}
@@ -64,7 +64,7 @@ def _linked(
     return links if alone and not lost.any() else None
 
 
-def _twins(
+def _unchanged_edges(
     old: CutBoundary, stays: Ints, local: CutBoundary, beside: Ints, parts: MergedElements
 ) -> tuple[Ints, Ints]:
     """Old edge (k,) of each local edge ``beside`` the new ones, and the rows that have one.

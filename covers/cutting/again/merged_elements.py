@@ -47,11 +47,11 @@ def merged_elements(old: CutCells, local: Layer, window: Window) -> MergedElemen
     pieces = local.pieces
     stays, fresh = ~window.inner[old.element_cell], window.inner[pieces.cell]
     near = np.flatnonzero(stays & window.around[old.element_cell])
-    twins = np.flatnonzero(~fresh)
+    unchanged = np.flatnonzero(~fresh)
     # Both are in the order of cells, and in a fixed order within a cell.
-    if pieces.lost or not np.array_equal(old.element_cell[near], pieces.cell[twins]):
+    if pieces.lost or not np.array_equal(old.element_cell[near], pieces.cell[unchanged]):
         return None
-    ringed, found = old.elements.take(near), pieces.elements.take(twins)
+    ringed, found = old.elements.take(near), pieces.elements.take(unchanged)
     if not np.array_equal(ringed.points, found.points):  # a closure extends beyond the window
         return None
     cell = np.concatenate([old.element_cell[stays], pieces.cell[fresh]])
@@ -60,7 +60,7 @@ def merged_elements(old: CutCells, local: Layer, window: Window) -> MergedElemen
     kept = np.full(len(stays), -1, dtype=np.int64)
     kept[stays] = rank[: stays.sum()]
     made = np.empty(len(fresh), dtype=np.int64)
-    made[fresh], made[twins] = rank[stays.sum() :], kept[near]
+    made[fresh], made[unchanged] = rank[stays.sum() :], kept[near]
     elements = Polygons.concatenate([old.elements.take(stays), pieces.elements.take(fresh)])
     return MergedElements(
         elements.take(order),

@@ -97,11 +97,11 @@ def _without_rigid(
     Bodies that inherit unknowns have it from these.
     """
     kin = transfer.kin
-    if not transfer.loose.any():
+    if not transfer.inherits_nothing.any():
         return after
     had = np.asarray(old.rigid_projection @ before).reshape(-1, 3)
     has = np.asarray(new.rigid_projection @ after).reshape(-1, 3)
     # Parts of a body that was divided keep the motion that they have of their own.
-    whole = kin.whole & transfer.loose
+    whole = kin.whole & transfer.inherits_nothing
     wrong = np.where(whole[:, None], had[np.maximum(kin.bodies.main, 0)] - has, 0.0)
     return np.asarray(after + new.manifold.rigid_modes @ wrong.ravel())

@@ -96,8 +96,8 @@ class Candidates:
         found, interface = self.partners.meeting(
             surface, found, record.book, first=record.found is None
         )
-        loose = np.zeros(len(found), dtype=bool)
-        new = searched_points(found, interface, self._laws.initial(interface, loose), surface)
+        unbonded = np.zeros(len(found), dtype=bool)
+        new = searched_points(found, interface, self._laws.initial(interface, unbonded), surface)
         if self._laws.stiff:
             new = sized(self._laws, new, surface)
         none = np.zeros(0, dtype=np.int64)

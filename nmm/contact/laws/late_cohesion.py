@@ -31,32 +31,32 @@ class LateCohesion(Transform):
 
     Attributes
     ----------
-    loose
+    unbonded
         (m,) joints without bond that have a cohesion.
     cohesion
         (m,) theirs in this step (N), none where they are open at its start.
     """
 
-    loose: Bools
+    unbonded: Bools
     cohesion: Floats
 
     @classmethod
     def of(cls, limits: Limits, contacts: ContactPoints) -> Self | None:
         """Return the transform of a step; None where no contact has cohesion without tension."""
-        loose = (limits.tension == 0) & (limits.cohesion > 0)
-        if not some(loose):
+        unbonded = (limits.tension == 0) & (limits.cohesion > 0)
+        if not some(unbonded):
             return None
         parted = (contacts.gap > CLOSED * contacts.length) & (contacts.normal_force >= 0)
-        return cls(loose, np.where(parted, 0.0, limits.cohesion))
+        return cls(unbonded, np.where(parted, 0.0, limits.cohesion))
 
     def apply(self, problem: StepProblem) -> StepProblem:
         """See `Transform.apply`."""
         limits = problem.limits
-        cohesion = np.where(self.loose, self.cohesion, limits.cohesion)
-        tension = np.where(self.loose, ADHERES * cohesion, limits.tension)
+        cohesion = np.where(self.unbonded, self.cohesion, limits.cohesion)
+        tension = np.where(self.unbonded, ADHERES * cohesion, limits.tension)
         return with_parts(problem, limits=with_parts(limits, cohesion=cohesion, tension=tension))
 
     def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
         """Return the answer with opened joints marked as open: they had no bond to break."""
-        opened = self.loose & (answer.state == BROKEN) & (problem.state != BROKEN)
+        opened = self.unbonded & (answer.state == BROKEN) & (problem.state != BROKEN)
         return with_parts(answer, state=np.where(opened, int(OPEN), answer.state))

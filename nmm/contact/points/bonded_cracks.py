@@ -51,7 +51,7 @@ class BondedCracks:
         return self.hold(manifold.boundary.at(points.edge_a, points.parameter_a))
 
 
-def refuse_loose(places: Floats) -> None:
+def refuse_unbonded(places: Floats) -> None:
     """Refuse bonded cracks at places (k, 2) where the material has no bond with itself.
 
     Raises

@@ -17,7 +17,7 @@ from nmm.contact.detection.pair_keys import pair_key, unordered_key
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import JOINT_LEFT, WHOLLY_HELD
 from nmm.contact.points.between_faces import JointFaces
-from nmm.contact.points.bonded_cracks import BondedCracks, refuse_loose
+from nmm.contact.points.bonded_cracks import BondedCracks, refuse_unbonded
 from nmm.contact.points.boundary_points import tangents
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.problem.step_problem import BONDED, BROKEN, OPEN
@@ -209,7 +209,7 @@ def _followed(
     joints, seam = joints.take(kept), seam[kept]
     interface = interface_of(joints.edge_a, joints.edge_b)
     firm = (interface >= 0) & laws.bonded[np.maximum(interface, 0)]
-    refuse_loose(joints.start[seam & ~firm])
+    refuse_unbonded(joints.start[seam & ~firm])
     wanted = (interface >= 0) & laws.makes_joints[np.maximum(interface, 0)]
     return joints.take(wanted), interface[wanted]
 

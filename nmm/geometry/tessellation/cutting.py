@@ -11,7 +11,7 @@ import shapely
 from integration.arrays import Floats, Ints
 from integration.polygons import Polygons
 from nmm.errors import Fault, GeometryError
-from nmm.geometry.tessellation.faces import Shapes, faces_and_loose_ends, owners
+from nmm.geometry.tessellation.faces import Shapes, faces_and_dangles, owners
 from nmm.geometry.tessellation.scraps import absorb
 from nmm.geometry.tessellation.short_edges import collapse_short_edges
 
@@ -63,14 +63,14 @@ def cut(regions: Polygons, joints: Floats) -> Cut:
     low, size = regions.points.min(axis=0), float(np.hypot(*np.ptp(regions.points, axis=0)))
     local = regions.with_points((regions.points - low) / size)
     shapes = local.to_shapely()
-    found, loose = faces_and_loose_ends(_lines(local, shapes, (joints - low) / size), _GRID)
+    found, dangles = faces_and_dangles(_lines(local, shapes, (joints - low) / size), _GRID)
     owner = owners(shapely.point_on_surface(found), shapes)
     found, owner = found[owner >= 0], owner[owner >= 0]
     thick = 2 * shapely.area(found) > _THIN * shapely.length(found)
     found, kept = absorb(found, thick, owner)
     order = np.argsort(owner[kept], kind="stable")
     blocks = Polygons.from_shapely(found[order]).oriented()
-    cracks = _segments(loose)
+    cracks = _segments(dangles)
     cracks = cracks[np.hypot(*(cracks[:, 1] - cracks[:, 0]).T) > 2 * _REACH]
     cracks = cracks[owners(shapely.points(cracks.mean(axis=1)), shapes) >= 0]
     owner = owner[kept][order]

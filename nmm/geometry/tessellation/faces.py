@@ -20,10 +20,10 @@ def faces(lines: Sequence[Any] | Shapes) -> Shapes:
     A crossing is computed once, for all faces around it; a vertex on the edge of another face
     becomes a vertex of that face too.
     """
-    return faces_and_loose_ends(lines)[0]
+    return faces_and_dangles(lines)[0]
 
 
-def faces_and_loose_ends(
+def faces_and_dangles(
     lines: Sequence[Any] | Shapes, grid: float | None = None
 ) -> tuple[Shapes, Shapes]:
     """Faces as `faces` gives them, and the pieces of lines that bound no face.
@@ -33,8 +33,8 @@ def faces_and_loose_ends(
     """
     noded = shapely.union_all(np.asarray(lines, dtype=object), grid_size=grid)
     found, bridges, dangles, _ = shapely.polygonize_full([noded])
-    loose = np.concatenate([shapely.get_parts(bridges), shapely.get_parts(dangles)])
-    return shapely.get_parts(found), loose
+    others = np.concatenate([shapely.get_parts(bridges), shapely.get_parts(dangles)])
+    return shapely.get_parts(found), others
 
 
 def inside(candidates: Shapes, region: Any) -> Bools:
