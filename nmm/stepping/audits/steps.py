@@ -95,3 +95,12 @@ def _increments(run: EndedRun) -> Findings:
             "answer depends",
             "halve [loading] increment and compare",
         )
+    if run.scene.initial_stresses and recorder.ledger.throughput:
+        taken = recorder.ledger.friction_first / recorder.ledger.throughput
+        yield AuditFinding(
+            "first_increment",
+            taken,
+            f"friction slid and took {percent(taken)} of the turnover in the first increment, in "
+            "which initial stress acts at once: forces and places depend on how it came to be",
+            "give stresses that joints bear, or compare with a first stage in which joints stick",
+        )

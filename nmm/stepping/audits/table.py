@@ -186,6 +186,12 @@ THRESHOLDS: dict[str, Threshold] = {
         None,
         "`[loading]` up to a factor, with contact",
     ),
+    "first_increment": Threshold(
+        "what friction took in the first increment, over the turnover",
+        1e-3,
+        None,
+        "statics with contact and initial stress",
+    ),
 }
 
 

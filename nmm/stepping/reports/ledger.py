@@ -29,6 +29,8 @@ class Ledger:
     work, friction_loss, material_loss
         Work of loads, weight and driven supports; what friction, dashpots and breaking bonds took;
         and what material points did, which flow or suffer damage.
+    friction_first
+        What friction and breaking bonds took in the first step.
     material_gift
         What material points gave in the steps in which they took less than nothing: stresses that
         turn about within a step do work on what flows at its end.
@@ -67,6 +69,7 @@ class Ledger:
 
     work: float = 0.0
     friction_loss: float = 0.0
+    friction_first: float = 0.0
     material_loss: float = 0.0
     material_gift: float = 0.0
     damping_loss: Mapping[str, float] = field(default_factory=dict)
@@ -108,6 +111,7 @@ class Ledger:
             self,
             work=self._worked(plan, before, attempt),
             friction_loss=self.friction_loss + loss,
+            friction_first=self.friction_first if self.steps else loss,
             material_loss=self.material_loss + dissipated,
             material_gift=self.material_gift + max(-dissipated, 0.0),
             effect_loss={
