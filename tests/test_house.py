@@ -340,6 +340,40 @@ def test_a_number_means_the_same_in_all_rooms_of(package):
     assert not twice, "one name, several meanings: " + str(twice)
 
 
+def declared(kind: ast.ClassDef, known: dict[str, ast.ClassDef]) -> set[str]:
+    """Names that a class or a base of it describes: methods with a docstring, and attributes."""
+    names = {
+        part.name if isinstance(part, ast.FunctionDef) else ast.unparse(part.target)
+        for part in kind.body
+        if (isinstance(part, ast.FunctionDef) and ast.get_docstring(part))
+        or isinstance(part, ast.AnnAssign)
+    }
+    bases = (ast.unparse(base).partition("[")[0].rpartition(".")[2] for base in kind.bases)
+    return names.union(*(declared(known[base], known) for base in bases if base in known))
+
+
+def test_every_public_method_is_described_where_it_is_declared():
+    """Methods that override another need say no more: no two public classes share a name."""
+    known = {
+        part.name: part
+        for package in PACKAGES
+        for path in (ROOT / package).rglob("*.py")
+        for part in ast.parse(path.read_text()).body
+        if isinstance(part, ast.ClassDef)
+    }
+    missing = [
+        f"{name}.{part.name}"
+        for name, kind in known.items()
+        for part in kind.body
+        if isinstance(part, ast.FunctionDef)
+        and not name.startswith("_")
+        and not part.name.startswith("_")
+        and part.name not in declared(kind, known)
+        and not {"overload", f"{part.name}.setter"} & {ast.unparse(d) for d in part.decorator_list}
+    ]
+    assert not missing
+
+
 @pytest.mark.parametrize("room", FOLDERS)
 def test_a_room_holds_no_more_files_than_a_reader_can_survey(room):
     files = [path for path in (ROOT / room).glob("*.py") if path.name != "__init__.py"]

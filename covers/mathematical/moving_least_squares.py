@@ -70,7 +70,6 @@ class MovingLeastSquares(Cover):
 
     @property
     def mended(self) -> dict[str, int]:
-        """See `Cover.mended`."""
         said = {
             "pieces of discs left out that hardly reach the material": self.left_out,
             "discs enlarged where others hardly reach": self.enlarged,

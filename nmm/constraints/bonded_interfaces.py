@@ -83,7 +83,6 @@ class BondedInterfaces(TiedInterfaces):
         return new
 
     def energy(self, state: State) -> float:
-        """See `Effect.energy`."""
         return super().energy(state) - self._laid_energy(state)
 
     def received_stress_energy(self, state: State) -> float:
@@ -101,7 +100,6 @@ class BondedInterfaces(TiedInterfaces):
 
     @property
     def about(self) -> str:
-        """See `Effect.about`."""
         return super().about or "no shared edges"
 
     @property

@@ -59,7 +59,6 @@ class Multipliers(Imposition):
 
     @classmethod
     def of(cls, model: Model, interface: Interface, method: Method) -> Self:
-        """See `Imposition.of`."""
         return cls._sharing(model, [interface], method)[0]
 
     @classmethod
@@ -103,7 +102,6 @@ class Multipliers(Imposition):
 
     @property
     def shared(self) -> MultiplierValues:
-        """See `Imposition.shared`."""
         return self.found
 
     def matrix(self, state: State) -> Triplets:
@@ -116,11 +114,9 @@ class Multipliers(Imposition):
         return np.zeros(len(state.deformation))
 
     def point_forces(self, state: State, jump: Floats) -> Floats:
-        """See `Imposition.point_forces`."""
         return self._forces(self.found.values)
 
     def earlier_forces(self, state: State, jump: Floats) -> Floats:
-        """See `Imposition.earlier_forces`."""
         return self._forces(self.found.before)
 
     def _forces(self, values: Floats | None) -> Floats:
@@ -130,7 +126,6 @@ class Multipliers(Imposition):
         return np.asarray(-self.interface.area[:, None] * traction)
 
     def conditions(self, state: State, jump: Floats) -> tuple[csr_array, Floats]:
-        """See `Imposition.conditions`."""
         area = diags_array(np.repeat(self.interface.area, 2))
         weighted = csr_array((area @ self.basis).T)
         rows = sparse_rows(*self.interface.rows(state), len(state.deformation))

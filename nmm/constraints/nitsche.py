@@ -54,14 +54,12 @@ class Nitsche(Imposition):
 
     @classmethod
     def of(cls, model: Model, interface: Interface, method: Method) -> Self:
-        """See `Imposition.of`."""
         place, other = ("supports", "penalty") if interface.second is None else ("glue", "spring")
         check_linear(model, f"[{place}] method", f'method = "{other}"')
         terms = against_ground if interface.second is None else between_bodies
         return cls(interface, *terms(model, interface, method))
 
     def matrix(self, state: State) -> Triplets:
-        """See `Imposition.matrix`."""
         area, n = self.interface.area[:, None, None], len(state.deformation)
         unknowns, rows = self.interface.rows(state)
         flux = in_global_axes(self.fluxes, state.frames)
@@ -78,7 +76,6 @@ class Nitsche(Imposition):
         return joined(parts)
 
     def force(self, state: State, jump: Floats) -> Floats:
-        """See `Imposition.force`."""
         unknowns, flux = in_global_axes(self.fluxes, state.frames)
         back = contract("mcl,mc->ml", flux, self.interface.area[:, None] * jump)
         total = self.interface.spread(state, self._consistent(state, jump))
@@ -91,7 +88,6 @@ class Nitsche(Imposition):
         return total
 
     def point_forces(self, state: State, jump: Floats) -> Floats:
-        """See `Imposition.point_forces`."""
         total = self.interface.held * self._consistent(state, jump)
         if self.lift is not None:
             pressure = self.lift.pressure(state.deformation, self._gap(state, jump))
@@ -99,7 +95,6 @@ class Nitsche(Imposition):
         return np.asarray(total)
 
     def added(self, state: State, stresses: Sequence[StressAt], time: float) -> Floats:
-        """See `Imposition.added`."""
         total = added_traction(self.fluxes, state.frames, stresses, time)
         return self.interface.area[:, None] * total
 
@@ -115,7 +110,6 @@ class Nitsche(Imposition):
         return total
 
     def gap_volume(self, state: State, jump: Floats, k: int) -> Floats:
-        """See `Imposition.gap_volume`."""
         if self.lift is None:
             return np.zeros(k)
         return self.lift.gap_volume(self._gap(state, jump), k)

@@ -39,7 +39,6 @@ class Springs(Imposition):
 
     @classmethod
     def of(cls, model: Model, interface: Interface, method: Method) -> Self:
-        """See `Imposition.of`."""
         if interface.second is not None:
             glue = glue_stiffness(model, interface, method.stiffness)
             return cls(interface, glue * interface.area)
@@ -53,22 +52,18 @@ class Springs(Imposition):
         return cls(interface, stiffness)
 
     def matrix(self, state: State) -> Triplets:
-        """See `Imposition.matrix`."""
         unknowns, rows = self.interface.rows(state)
         return product((unknowns, rows), (unknowns, self._pulled(state, rows)))
 
     def force(self, state: State, jump: Floats) -> Floats:
-        """See `Imposition.force`."""
         return self.interface.spread(state, self.point_forces(state, jump))
 
     def point_forces(self, state: State, jump: Floats) -> Floats:
-        """See `Imposition.point_forces`."""
         if self.stiffness.ndim == 1:
             return np.asarray(-(self.stiffness[:, None] * jump))
         return -self._pulled(state, jump[:, :, None])[:, :, 0]
 
     def energy(self, state: State, jump: Floats) -> float:
-        """See `Imposition.energy`."""
         return -0.5 * float((jump * self.point_forces(state, jump)).sum())
 
     @property

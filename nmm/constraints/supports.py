@@ -124,12 +124,10 @@ class Supports(TiedInterfaces):
 
     @property
     def steady(self) -> bool:
-        """See `Effect.steady`."""
         return all(ground.still for ground in self._grounds)
 
     @property
     def resolves(self) -> float | None:
-        """See `Effect.resolves`."""
         return min((one.step for one in self._grounds if one.step is not None), default=None)
 
     def work(self, before: State, after: State) -> float:

@@ -58,7 +58,6 @@ class TiedInterfaces(Effect):
 
     @property
     def about(self) -> str:
-        """See `Effect.about`."""
         points: dict[str, int] = {}
         for tie in self.ties:
             if tie.shared is None:
@@ -69,7 +68,6 @@ class TiedInterfaces(Effect):
 
     @property
     def turns_with_bodies(self) -> str:
-        """See `Effect.turns_with_bodies`."""
         oriented = any(tie.oriented for tie in self.ties)
         return "springs that are unlike along an interface and across" if oriented else ""
 
@@ -129,7 +127,6 @@ class TiedInterfaces(Effect):
         return StepForce(turned.T @ total, stiffness, rounding=rounding)
 
     def work_correction(self, before: State, after: State, increment: Floats, span: Span) -> float:
-        """See `Effect.work_correction`."""
         now, end = Instant.of(before), Instant.of(after)
         rise = self.step_force(before, after, replace(span, weight=1.0)).force
         total = -float((rise - self.force(before, now)) @ increment)
@@ -152,7 +149,6 @@ class TiedInterfaces(Effect):
         return found
 
     def receive_stresses(self, stresses: Sequence[StressAt]) -> None:
-        """See `Effect.receive_stresses`."""
         self._stresses = stresses
 
     def _added(self, tie: Imposition, state: State, end: Instant) -> Floats:
@@ -184,12 +180,10 @@ class TiedInterfaces(Effect):
         return tuple((shared.values, shared.before) for shared in self._spaces)
 
     def carry(self, carried: LastMultipliers) -> None:
-        """See `Effect.carry`."""
         for shared, (values, before) in zip(self._spaces, carried, strict=True):
             shared.values, shared.before = values, before
 
     def forget(self) -> None:
-        """See `Effect.forget`."""
         self._kept = self._last = None
         self._motions.forget()
 
@@ -217,7 +211,6 @@ class TiedInterfaces(Effect):
         return sum(float(np.sum(jump * self._added(tie, state, at))) for tie, jump in pairs)
 
     def gap_volume(self, state: State, k: int) -> Floats:
-        """See `Effect.gap_volume`."""
         total = np.zeros(k)
         for tie, jump in self._each(state, Instant.of(state)):
             total += tie.gap_volume(state, jump, k)

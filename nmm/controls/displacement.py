@@ -29,7 +29,6 @@ class Displacement(Control):
 
     @classmethod
     def of(cls, table: "ControlTable") -> Self:
-        """See `Control.of`."""
         size = float(np.hypot(*table.direction))
         way = (table.direction[0] / size, table.direction[1] / size)
         end = np.inf if table.end is None else table.end
@@ -37,7 +36,6 @@ class Displacement(Control):
         return cls(table.increment, end, tuple(table.monitors), way)
 
     def row(self, at: PathState) -> Floats:
-        """See `Control.row`."""
         total = np.zeros_like(at.load)
         for sign, name in zip((1.0, -1.0), self.monitors, strict=False):
             points = at.monitors[name]

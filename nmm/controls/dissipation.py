@@ -27,18 +27,14 @@ class Dissipation(Control):
 
     @classmethod
     def of(cls, table: "ControlTable") -> Self:
-        """See `Control.of`."""
         assert table.energy is not None
         return cls(table.energy, np.inf if table.end_energy is None else table.end_energy)
 
     def idle(self, events: int, softened: bool) -> bool:
-        """See `Control.idle`."""
         return not softened
 
     def row(self, at: PathState) -> Floats:
-        """See `Control.row`."""
         return np.asarray(at.state.load_factor * at.load / 2)
 
     def share(self, at: PathState) -> float:
-        """See `Control.share`."""
         return -float(at.load @ at.way) / 2

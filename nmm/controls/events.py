@@ -21,13 +21,10 @@ class NextEvent(Control):
 
     @classmethod
     def of(cls, table: "ControlTable") -> Self:
-        """See `Control.of`."""
         return cls(1.0)
 
     def row(self, at: PathState) -> Floats:
-        """See `Control.row`."""
         return np.zeros_like(at.load)
 
     def share(self, at: PathState) -> float:
-        """See `Control.share`."""
         return 1.0

@@ -76,18 +76,15 @@ class FieldEffect(Effect):
 
     @property
     def about(self) -> str:
-        """See `Effect.about`."""
         how = "steady" if self.course.steady else "transient"
         return f"{how}, {self.space.n} unknowns"
 
     @property
     def turns_with_bodies(self) -> str:
-        """See `Effect.turns_with_bodies`."""
         return "" if self.stress is None else "its stress"
 
     @property
     def steady(self) -> bool:
-        """See `Effect.steady`."""
         return self.course.steady and self.course.problem.still
 
     def here(self, time: float) -> FieldAt:
@@ -104,7 +101,6 @@ class FieldEffect(Effect):
         return self._turned is not None
 
     def step_force(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.step_force`."""
         assert self._turned is not None
         return self._turned.step_force(before, after, span)
 
@@ -124,13 +120,11 @@ class FieldEffect(Effect):
             self.course.begin(state.time * self._second)
 
     def stress_at(self, elements: Ints, points: Floats, time: float) -> Floats:
-        """See `Effect.stress_at`."""
         if self.stress is None:
             return np.zeros((len(elements), 3))
         return self.stress.at(self.acting(time), elements, points)
 
     def mean_stress(self, state: State) -> Floats:
-        """See `Effect.mean_stress`."""
         if self._turned is not None:
             return self._turned.mean(state)
         if self.stress is None:
@@ -164,19 +158,15 @@ class FieldEffect(Effect):
         return found if self.course.steady else {**found, "stored": here.stored}
 
     def imbalance(self, state: State) -> float:
-        """See `Effect.imbalance`."""
         return self.here(state.time).imbalance
 
     def carried(self) -> Any:
-        """See `Effect.carried`."""
         return self.course.carried()
 
     def carry(self, carried: Any) -> None:
-        """See `Effect.carry`."""
         self.course.carry(carried)
 
     def forget(self) -> None:
-        """See `Effect.forget`."""
         self.course.problem.forget()
         self._own_flux.forget()
         if self.stress is not None:

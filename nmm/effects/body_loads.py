@@ -60,13 +60,11 @@ class BodyLoads(Effect):
         return DeadLoad(self._model, mean).work(before, after, pushed)
 
     def applied_forces(self, state: State) -> AppliedForces:
-        """See `Effect.applied_forces`."""
         density = self._density(Instant.of(state))
         return AppliedForces.of_densities(lambda elements, points: density[elements])
 
     @property
     def steady(self) -> bool:
-        """See `Effect.steady`."""
         return all(load.steady for load in self._loads)
 
     def _push(self, state: State, density: Floats) -> Floats:

@@ -27,7 +27,6 @@ class Contact(ModelContact, Effect):
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
-        """See `Effect.from_setup`."""
         found = cls(setup.model, contact_parts(setup), setup.start)
         found._ground = stress_of_ground(setup)
         return found

@@ -59,5 +59,4 @@ class Gravity(Effect):
         return self._volume.work(before, after, (self._weights.of(before), self._weights.of(after)))
 
     def forget(self) -> None:
-        """See `Effect.forget`."""
         self._weights.forget()

@@ -74,7 +74,6 @@ class Loads(Effect):
         return total
 
     def applied_forces(self, state: State) -> AppliedForces:
-        """See `Effect.applied_forces`."""
         factors = (load.factor(Instant.of(state)) for load in self.loads)
         pairs = zip(self.loads, factors, strict=True)
         return joined(AppliedForces.on(self._model, one.place, f * one.force) for one, f in pairs)
@@ -90,7 +89,6 @@ class Loads(Effect):
 
     @property
     def steady(self) -> bool:
-        """See `Effect.steady`."""
         return all(load.steady for load in self.loads)
 
     def scaled_resultant(self, factor: float) -> float:

@@ -126,11 +126,9 @@ class UnreleasedForces(Effect):
         return {"share": float(share.max(initial=0.0))}
 
     def carried(self) -> CarriedLoad:
-        """See `Effect.carried`."""
         return self.forces, self.region, self.first, self.last
 
     def carry(self, carried: CarriedLoad) -> None:
-        """See `Effect.carry`."""
         self._take(*carried)
 
     def _share(self, load_factor: float) -> Floats:

@@ -103,7 +103,6 @@ class Heat(FieldEffect):
         return replace(state, history=matter.update(state.deformation, heated, 0.0).history)
 
     def swelling(self, state: State, end: Instant) -> Floats | None:
-        """See `Effect.swelling`."""
         if self.strain is None:
             return None
         self._begin(state, end)
@@ -157,7 +156,6 @@ class Heat(FieldEffect):
         return KeptOfArray(lambda rise: self._reference + self.space.vertices @ rise)
 
     def forget(self) -> None:
-        """See `Effect.forget`."""
         super().forget()
         self._at_vertices.forget()
 

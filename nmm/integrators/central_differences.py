@@ -20,17 +20,14 @@ class CentralDifferences(Integrator):
 
     @property
     def order(self) -> int:
-        """See `Integrator.order`."""
         return 2
 
     @property
     def limit(self) -> float:
-        """See `Integrator.limit`."""
         return 2.0
 
     @property
     def carries(self) -> bool:
-        """See `Integrator.carries`."""
         return True
 
     @property

@@ -21,7 +21,6 @@ class EnergyMomentum(Newmark):
 
     @property
     def conserves(self) -> bool:
-        """See `Integrator.conserves`."""
         return True
 
     @property

@@ -44,7 +44,6 @@ class GeneralizedAlpha(Newmark):
 
     @property
     def carries(self) -> bool:
-        """See `Integrator.carries`."""
         return True
 
     @property

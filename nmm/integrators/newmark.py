@@ -35,7 +35,6 @@ class Newmark(Integrator):
 
     @cached_property
     def carries(self) -> bool:
-        """See `Integrator.carries`."""
         return abs(self.gamma - 2 * self.beta) > 1e-12 or self.gamma > 1
 
     @property

@@ -90,12 +90,10 @@ class LinearBond(BondLaw):
 
     @property
     def curve(self) -> tuple[Floats, Floats]:
-        """See `BondLaw.curve`."""
         return np.array([0.0, 1.0]), np.array([0.0, float(self.stiffness or 0.0)])
 
     @property
     def uniaxial(self) -> Uniaxial:
-        """See `BondLaw.uniaxial`."""
         return Uniaxial(float(self.stiffness or 0.0))
 
 
@@ -109,7 +107,6 @@ class PlasticBond(BondLaw):
 
     @property
     def curve(self) -> tuple[Floats, Floats]:
-        """See `BondLaw.curve`."""
         strength, stiffness = float(self.strength or 0.0), float(self.stiffness or 1.0)
         return np.array([0.0, strength / stiffness]), np.array([0.0, strength])
 
@@ -124,7 +121,6 @@ class BilinearBond(BondLaw):
 
     @property
     def curve(self) -> tuple[Floats, Floats]:
-        """See `BondLaw.curve`."""
         strength = float(self.strength or 0.0)
         return np.array([0.0, *self.slips]), np.array([0.0, strength, self.residual_strength])
 
@@ -145,7 +141,6 @@ class ModelCodeBond(BondLaw):
 
     @property
     def curve(self) -> tuple[Floats, Floats]:
-        """See `BondLaw.curve`."""
         share = np.geomspace(LINE, 1.0, POINTS)
         strength, (first, second, third) = float(self.strength or 0.0), self.slips
         ways = np.concatenate([[0.0], first * share, [second, third]])

@@ -44,7 +44,6 @@ class Softening(MohrCoulomb):
 
     @property
     def columns(self) -> Mapping[str, HistoryColumn]:
-        """See `InterfaceLaw.columns`."""
         return {**super().columns, "damage": DAMAGE}
 
     def response(self, history: History, stiffness: Floats) -> InterfaceResponse:
@@ -154,7 +153,6 @@ class LinearSoftening(Softening):
 
     @property
     def curve(self) -> tuple[Floats, Floats]:
-        """See `Softening.curve`."""
         return np.array([0.0, 2.0]), np.array([1.0, 0.0])
 
 
@@ -164,7 +162,6 @@ class BilinearSoftening(Softening):
 
     @property
     def curve(self) -> tuple[Floats, Floats]:
-        """See `Softening.curve`."""
         return np.array([0.0, 0.8, 3.6]), np.array([1.0, 1 / 3, 0.0])
 
 
@@ -183,5 +180,4 @@ class ExponentialSoftening(Softening):
 
     @property
     def curve(self) -> tuple[Floats, Floats]:
-        """See `Softening.curve`."""
         return self.points

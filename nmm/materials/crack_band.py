@@ -29,11 +29,9 @@ class SofteningPlasticity(Plastic):
 
     @property
     def sized(self) -> bool:
-        """See `Law.sized`."""
         return self.softening_energy is not None
 
     def check_size(self, size: Floats) -> None:
-        """See `Law.check_size`."""
         energy = self.softening_energy
         if energy is None:
             return

@@ -52,11 +52,9 @@ class DruckerPragerPlasticity(Frictional):
 
     @property
     def sets(self) -> Sequence[ActingPlanes]:
-        """See `Frictional.sets`."""
         return self._cone.sets
 
     def update(self, strain: Floats, history: History, plane: str, step: float) -> Response:
-        """See `Law.update`."""
         before, weakening = inelastic(history), self.weakening(history)
         return self.answer(cone_return(strain, before, self._cone, weakening), history)
 

@@ -130,7 +130,6 @@ class Frictional(SofteningPlasticity):
         return 1 - self.residual_cohesion / self.cohesion if self.sized else 0.0
 
     def cell_limit(self, energy: float) -> tuple[float, str]:
-        """See `SofteningPlasticity.cell_limit`."""
         most, remedy = largest_cell(self.sets, energy), ""
         if self.tensile_strength is None:
             cut = replace(self, tensile_strength=min(self.cohesion, self.apex))
@@ -139,7 +138,6 @@ class Frictional(SofteningPlasticity):
         return most, remedy
 
     def variables(self, plane: str) -> History:
-        """See `Law.variables`."""
         more = {"softened": np.zeros(1)} if self.sized else {}
         return {**super().variables(plane), **more}
 

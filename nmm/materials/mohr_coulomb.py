@@ -23,11 +23,9 @@ class MohrCoulombPlasticity(Frictional):
 
     @property
     def sets(self) -> Sequence[ActingPlanes]:
-        """See `Frictional.sets`."""
         return self._pyramid.sets
 
     def update(self, strain: Floats, history: History, plane: str, step: float) -> Response:
-        """See `Law.update`."""
         before, weakening = inelastic(history), self.weakening(history)
         found = principal_return(strain, before, self._pyramid, weakening)
         return self.answer(found, history)

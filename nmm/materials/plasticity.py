@@ -24,16 +24,13 @@ class Plastic(Elastic):
 
     @property
     def swells(self) -> bool:
-        """See `Law.swells`."""
         return True
 
     @property
     def rests(self) -> bool:
-        """See `Law.rests`."""
         return True
 
     def variables(self, plane: str) -> History:
-        """See `Law.variables`."""
         return {
             "plastic_strain": np.zeros(4),
             "accumulated_plastic_strain": np.zeros(1),

@@ -77,7 +77,6 @@ class VonMisesPlasticity(SofteningPlasticity):
         return (self.yield_stress - self.residual_stress) ** 2 * size / (2 * self.softening_energy)
 
     def update(self, strain: Floats, history: History, plane: str, step: float) -> Response:
-        """See `Law.update`."""
         if self.softening_energy is not None:
             return self._softened(strain, history)
         found = (projected_return if plane == "stress" else radial_return)(

@@ -13,7 +13,6 @@ class CrackOpening(Output):
     """Gap of broken bonds at contact points (m); zero where they hold or are closed."""
 
     def fields(self, view: View) -> Mapping[str, Quantity]:
-        """See `Output.fields`."""
         contacts = view.contacts
         if contacts is None:
             return {"crack_opening": Quantity("contacts", np.zeros(0), "m")}

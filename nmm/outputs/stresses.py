@@ -14,7 +14,6 @@ class VonMises(Output):
     """Von Mises stress of each element (Pa), exact in plane stress."""
 
     def fields(self, view: View) -> Mapping[str, Quantity]:
-        """See `Output.fields`."""
         return {"von_mises": Quantity("elements", von_mises(view.stress), "Pa")}
 
 
@@ -22,7 +21,6 @@ class PrincipalStress(Output):
     """Major and minor principal stress of each element in the plane (Pa), tension positive."""
 
     def fields(self, view: View) -> Mapping[str, Quantity]:
-        """See `Output.fields`."""
         values = principal(view.stress)
         return {"principal_stress": Quantity("elements", values, "Pa", ("major", "minor"))}
 
@@ -31,7 +29,6 @@ class MeanStress(Output):
     """Mean of the two normal stresses of each element in the plane (Pa), tension positive."""
 
     def fields(self, view: View) -> Mapping[str, Quantity]:
-        """See `Output.fields`."""
         return {"mean_stress": Quantity("elements", view.stress[:, :2].mean(axis=1), "Pa")}
 
 

@@ -32,7 +32,6 @@ class Auto(DefiniteSolver):
     compiled: bool = False
 
     def beside(self, compiled: bool) -> "Auto":
-        """See `LinearSolver.beside`."""
         return replace(self, compiled=self.compiled or compiled)
 
     def decompose(self, matrix: csc_array) -> Decomposition:
@@ -40,11 +39,9 @@ class Auto(DefiniteSolver):
         return self._chosen(matrix.shape[0]).decompose(matrix)
 
     def in_full(self, unknowns: int) -> bool:
-        """See `LinearSolver.in_full`."""
         return unknowns < FEW and not self.shift
 
     def describe(self, unknowns: int) -> str:
-        """See `LinearSolver.describe`."""
         return f"{self.name}: {self._chosen(unknowns).describe(unknowns)}"
 
     def unsymmetric(self) -> "AutoLU":

@@ -40,7 +40,6 @@ class CoulombStrength(BlockStrength):
             )
 
     def judged(self, stress: Floats) -> SplitJudgement:
-        """See `BlockStrength.judged`."""
         main = PrincipalStresses.of(stress)
         pulled, sheared = self._pulled(main), self._sheared(main)
         tension = (pulled >= 1) | (pulled >= sheared)

@@ -130,11 +130,9 @@ class Splitting(Effect):
         return {"bodies": bodies, "kept_whole": self.kept_whole}
 
     def carried(self) -> tuple[int, Floats]:
-        """See `Effect.carried`."""
         return self.kept_whole, self.born
 
     def carry(self, carried: tuple[int, Floats]) -> None:
-        """See `Effect.carry`."""
         self.kept_whole, self.born = carried
 
     def _rests(self, time: float) -> Bools:

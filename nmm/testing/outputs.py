@@ -89,7 +89,6 @@ class Keeper(Output):
     views: ClassVar[list[View]] = []
 
     def fields(self, view: View) -> Mapping[str, Quantity]:
-        """See `Output.fields`."""
         Keeper.views.append(view)
         return {}
 

@@ -57,7 +57,6 @@ class Consolidation(PoreWater):
 
     @property
     def about(self) -> str:
-        """See `Effect.about`."""
         return f"with strain, {self.space.n} unknowns"
 
     @property
@@ -89,7 +88,6 @@ class Consolidation(PoreWater):
         self.course.make_room(state.time * self._second, self._room(state))
 
     def forget(self) -> None:
-        """See `Effect.forget`."""
         super().forget()
         self._stiff = None
 

@@ -152,21 +152,17 @@ class JointStorage(JointWater):
         return {**taken, "pressure": pressure, "aperture": float(self.apertures(state).max())}
 
     def carried(self) -> Any:
-        """See `Effect.carried`."""
         return tuple(
             (one.time, one.head, one.volume, dict(one.taken)) for one in (self._began, self._end)
         )
 
     def carry(self, carried: Any) -> None:
-        """See `Effect.carry`."""
         self._began, self._end = (WaterStored(*one) for one in carried)
 
     def apertures(self, state: State) -> Floats:
-        """See `JointWater.apertures`."""
         return self._opened(state).aperture
 
     def forget(self) -> None:
-        """See `Effect.forget`."""
         super().forget()
         self._open = self._found = None
 

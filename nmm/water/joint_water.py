@@ -90,12 +90,10 @@ class JointWater(Effect):
 
     @property
     def about(self) -> str:
-        """See `Effect.about`."""
         return f"{len(self.network.length)} joints between {self.network.n} nodes"
 
     @property
     def steady(self) -> bool:
-        """See `Effect.steady`."""
         return all(one.factor is steadily for one in self.held)
 
     def apertures(self, state: State) -> Floats:
@@ -159,7 +157,6 @@ class JointWater(Effect):
         return nodes, heads[nodes]
 
     def forget(self) -> None:
-        """See `Effect.forget`."""
         for kept in (self._openings, self._heads, self._face_forces):
             kept.forget()
 

@@ -113,7 +113,6 @@ class PoreWater(FieldEffect):
         return self._weight * (self.here(time).unknowns - self._ground)
 
     def pore_pressure_at(self, elements: Ints, points: Floats, time: float) -> Floats:
-        """See `Effect.pore_pressure_at`."""
         return np.asarray(self.space.values(elements, points) @ self.acting(time))
 
     def work(self, before: State, after: State) -> float:

@@ -87,7 +87,6 @@ class WaterPressures(Effect):
 
     @property
     def steady(self) -> bool:
-        """See `Effect.steady`."""
         return all(one.steady for one in self.given)
 
     @property
@@ -97,11 +96,9 @@ class WaterPressures(Effect):
 
     @property
     def symmetric(self) -> bool:
-        """See `Effect.symmetric`."""
         return self._surfaces is None
 
     def step_force(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.step_force`."""
         assert self._surfaces is not None
         return self._surfaces.step_force(before, after, span)
 

@@ -46,68 +46,55 @@ class PolynomialGroup(ElementGroup):
 
     @property
     def shape_degree(self) -> int:
-        """See `ElementGroup.shape_degree`."""
         return self.degree
 
     @property
     def trace_degree(self) -> int:
-        """See `ElementGroup.trace_degree`."""
         return self.degree
 
     @property
     def weighted(self) -> bool:
-        """See `ElementGroup.weighted`."""
         return self.degree > self.local_degree
 
     @property
     def slots(self) -> Ints:
-        """See `ElementGroup.slots`."""
         return self.cover
 
     @property
     def carriers(self) -> Ints:
-        """See `ElementGroup.carriers`."""
         return self.cover
 
     def values(self, index: Ints, points: Floats) -> Floats:
-        """See `ElementGroup.values`."""
         return self._evaluate(self.table, self.degree, index, points)
 
     def gradients(self, index: Ints, points: Floats) -> Floats:
-        """See `ElementGroup.gradients`."""
         lower = max(self.degree - 1, 0)
         parts = [self._evaluate(d, lower, index, points) for d in self._derivatives]
         return np.stack(parts, axis=-1)
 
     def products(self) -> Floats:
-        """See `ElementGroup.products`."""
         return self._contract(self.table, self.table, self.degree)
 
     def lumped_products(self) -> Floats:
-        """See `ElementGroup.lumped_products`."""
         index = product_index(self.degree)[:, : count(self.local_degree)]
         found = self.table @ self.moments[:, index] @ np.swapaxes(self.local, 1, 2)
         return one_cover(found, self.cover)
 
     def gradient_products(self) -> Floats:
-        """See `ElementGroup.gradient_products`."""
         x, y = self._derivatives
         lower = max(self.degree - 1, 0)
         return np.stack([self._contract(a, b, lower) for a, b in ((x, x), (x, y), (y, y))], axis=1)
 
     def value_gradients(self, of: Ints) -> Floats:
-        """See `ElementGroup.value_gradients`."""
         slopes = count(max(self.degree - 1, 0))
         gram = self.moments[:, product_index(self.degree)[:, :slopes]]
         weighted = self.table[:, of] @ gram
         return np.stack([weighted @ np.swapaxes(d, 1, 2) for d in self._derivatives], axis=-1)
 
     def integrals(self) -> Floats:
-        """See `ElementGroup.integrals`."""
         return self._integrate(self.table)
 
     def gradient_integrals(self) -> Floats:
-        """See `ElementGroup.gradient_integrals`."""
         return np.stack([self._integrate(d) for d in self._derivatives], axis=-1)
 
     def gradient_rule(self, polygons: Polygons) -> PointRule:

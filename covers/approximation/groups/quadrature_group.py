@@ -68,38 +68,30 @@ class QuadratureGroup(ElementGroup):
 
     @property
     def shape_degree(self) -> int:
-        """See `Fields.degree`."""
         return self.fields.degree
 
     @property
     def extends(self) -> bool:
-        """See `ElementGroup.extends`."""
         return self.fields.extends
 
     @property
     def slots(self) -> Ints:
-        """See `ElementGroup.slots`."""
         return self.fields.monomial_slots
 
     @property
     def carriers(self) -> Ints:
-        """See `ElementGroup.carriers`."""
         return self.fields.cover
 
     def values(self, index: Ints, points: Floats) -> Floats:
-        """See `ElementGroup.values`."""
         return self.fields.evaluate(index, points)[0]
 
     def gradients(self, index: Ints, points: Floats) -> Floats:
-        """See `ElementGroup.gradients`."""
         return self.fields.evaluate(index, points)[1]
 
     def products(self) -> Floats:
-        """See `ElementGroup.products`."""
         return self._integrals[0]
 
     def lumped_products(self) -> Floats:
-        """See `ElementGroup.lumped_products`."""
         found = np.zeros((self.n_shapes, self._size, self._size))
         for some, points in self._batches():
             value, _, weight = self._at(some, points)
@@ -110,11 +102,9 @@ class QuadratureGroup(ElementGroup):
         return one_cover(found, self.fields.cover)
 
     def gradient_products(self) -> Floats:
-        """See `ElementGroup.gradient_products`."""
         return self._integrals[1]
 
     def value_gradients(self, of: Ints) -> Floats:
-        """See `ElementGroup.value_gradients`."""
         found = np.zeros((self.n_shapes, len(of), self._size, 2))
         for some, points in self._batches():
             value, slope, weight = self._at(some, points)
@@ -123,11 +113,9 @@ class QuadratureGroup(ElementGroup):
         return found
 
     def integrals(self) -> Floats:
-        """See `ElementGroup.integrals`."""
         return self._integrals[2]
 
     def gradient_integrals(self) -> Floats:
-        """See `ElementGroup.gradient_integrals`."""
         return self._integrals[3]
 
     def gradient_rule(self, polygons: Polygons) -> PointRule:

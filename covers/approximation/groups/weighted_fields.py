@@ -52,18 +52,15 @@ class WeightedFields(Fields):
 
     @property
     def degree(self) -> int:
-        """See `Fields.degree`."""
         highest = max(item.degree for item in self.functions)
         own = self.weighted.weight_degree
         return highest + (self.weighted.precision + RATIONAL_EDGE if own is None else own)
 
     @property
     def cover(self) -> Ints:
-        """See `Fields.cover`."""
         return covers_of(self.functions)
 
     def local_values(self, index: Ints, points: Floats) -> Floats:
-        """See `Fields.local_values`."""
         parts = [
             self.local(item, self.active[index, slot], points)[0]
             for slot, item in enumerate(self.functions)
@@ -71,7 +68,6 @@ class WeightedFields(Fields):
         return np.concatenate(parts, axis=1)
 
     def evaluate(self, index: Ints, points: Floats) -> tuple[Floats, Floats]:
-        """See `Fields.evaluate`."""
         weight, slope = self.weights(index, points)
         values, gradients = [], []
         for slot, item in enumerate(self.functions):  # the covers of one element

@@ -37,23 +37,19 @@ class EnrichedFields(Fields):
 
     @property
     def cover(self) -> Ints:
-        """See `Fields.cover`."""
         each = 2 * self.enrichments[0].functions.number
         return np.concatenate([self.base.cover, np.repeat(self.slots, each)])
 
     @property
     def monomial_slots(self) -> Ints:
-        """See `Fields.monomial_slots`."""
         extra = len(self.cover) - len(self.base.cover)
         return np.concatenate([self.base.cover, np.full(extra, -1, dtype=np.int64)])
 
     def local_values(self, index: Ints, points: Floats) -> Floats:
-        """See `Fields.local_values`."""
         singular = [self._singular(index, one, points)[0] for one in range(len(self.slots))]
         return np.concatenate([self.base.local_values(index, points), *singular], axis=1)
 
     def evaluate(self, index: Ints, points: Floats) -> tuple[Floats, Floats]:
-        """See `Fields.evaluate`."""
         values, gradients = self.base.evaluate(index, points)
         weight, slope = self.base.weights(index, points)
         parts, slopes = [values], [gradients]

@@ -148,7 +148,6 @@ class TiedBonds(Transform):
         return self.normal.force(mean), self.tangent.force(mean)
 
     def apply(self, problem: StepProblem) -> StepProblem:
-        """See `Transform.apply`."""
         others = self._others(problem)
         return replace(
             problem,
@@ -161,7 +160,6 @@ class TiedBonds(Transform):
         )
 
     def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
-        """See `Transform.undo`."""
         others = self._others(problem)
         gap, slip = problem.gaps(answer.increment), problem.slips(answer.increment)
         normal, shear = self.forces(answer.increment)

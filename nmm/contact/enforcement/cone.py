@@ -35,5 +35,4 @@ class Cone(ExactEnforcement):
     def forces(
         self, problem: StepProblem, tools: Tools, goal: Goal
     ) -> tuple[MultiplierIterate, str]:
-        """See `nmm.contact.iteration.exact`."""
         return exact_round(problem, tools, goal, self.max_factorisations)

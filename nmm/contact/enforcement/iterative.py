@@ -32,7 +32,6 @@ class IterativeEnforcement(Enforcement):
     iterations: IterationOptions = field(default_factory=IterationOptions, kw_only=True)
 
     def memory(self) -> "Memory":
-        """See `Enforcement.memory`."""
         from nmm.contact.iteration.memory import Memory
 
         return Memory(options=self.iterations.memory)

@@ -39,7 +39,6 @@ class ConservingSprings(TimeWeighting):
     lifted: Floats
 
     def apply(self, problem: StepProblem) -> StepProblem:
-        """See `Transform.apply`."""
         found = super().apply(problem)
         lines, slope = self._lines(problem), found.normal_stiffness.copy()
         slope[lines] = self._slope(problem)[lines]

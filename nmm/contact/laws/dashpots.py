@@ -28,7 +28,6 @@ class Dashpots(Transform):
     gap: Floats
 
     def apply(self, problem: StepProblem) -> StepProblem:
-        """See `Transform.apply`."""
         return with_parts(
             problem,
             normal_stiffness=problem.normal_stiffness + self.stiffness,
@@ -37,7 +36,6 @@ class Dashpots(Transform):
         )
 
     def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
-        """See `Transform.undo`."""
         return with_parts(answer, gap=answer.gap + self._lag(problem))
 
     def _lag(self, problem: StepProblem) -> Floats:

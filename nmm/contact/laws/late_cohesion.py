@@ -50,7 +50,6 @@ class LateCohesion(Transform):
         return cls(unbonded, np.where(parted, 0.0, limits.cohesion))
 
     def apply(self, problem: StepProblem) -> StepProblem:
-        """See `Transform.apply`."""
         limits = problem.limits
         cohesion = np.where(self.unbonded, self.cohesion, limits.cohesion)
         tension = np.where(self.unbonded, ADHERES * cohesion, limits.tension)

@@ -76,7 +76,6 @@ class AsymmetricSprings(Transform):
         )
 
     def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
-        """See `Transform.undo`."""
         m = problem.n_contacts
         normal = answer.normal_force[:m].copy()
         normal[self.index] += answer.normal_force[m:]

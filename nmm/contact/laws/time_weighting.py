@@ -40,7 +40,6 @@ class TimeWeighting(Transform):
     pulls: Bools
 
     def apply(self, problem: StepProblem) -> StepProblem:
-        """See `Transform.apply`."""
         return with_parts(
             problem,
             normal_stiffness=self.weight * problem.normal_stiffness,
@@ -84,11 +83,9 @@ class RaisedFaces(Transform):
     lift: Floats
 
     def apply(self, problem: StepProblem) -> StepProblem:
-        """See `Transform.apply`."""
         return with_parts(problem, gap=problem.gap - self.lift)
 
     def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
-        """See `Transform.undo`."""
         return with_parts(answer, gap=answer.gap + self.lift)
 
 

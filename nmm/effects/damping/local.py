@@ -51,7 +51,6 @@ class LocalDamping(Effect):
 
     @property
     def about(self) -> str:
-        """See `Effect.about`."""
         return f"{self._share:g} of what is out of balance, free fall included"
 
     def added_mass(self, state: State) -> csc_array:
@@ -81,7 +80,6 @@ class LocalDamping(Effect):
         return np.asarray(found, dtype=float)
 
     def forget(self) -> None:
-        """See `Effect.forget`."""
         self._kept = None
 
     def _matrix(self, factor: Floats) -> csc_array:

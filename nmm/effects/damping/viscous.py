@@ -44,7 +44,6 @@ class ViscousDamping(Effect):
 
     @property
     def about(self) -> str:
-        """See `Effect.about`."""
         return f"{self._mass:.6g} 1/s of the mass and {self._stiffness:.6g} s of the stiffness"
 
     @property
@@ -100,7 +99,6 @@ class GroundDamping(ViscousDamping):
 
     @property
     def steady(self) -> bool:
-        """See `Effect.steady`."""
         return False
 
     def force(self, state: State, end: Instant) -> Floats:

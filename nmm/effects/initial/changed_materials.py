@@ -99,7 +99,6 @@ class ChangedMaterials(Effect):
         return self._force
 
     def mean_stress(self, state: State) -> Floats:
-        """See `Effect.mean_stress`."""
         found = np.zeros((len(self._model.manifold.elements), 3))
         if len(self.kept.points):
             elements, means = self.kept.points.means(self.kept.stress)

@@ -82,16 +82,13 @@ class InitialStress(Effect):
         return self._force if self._turned is None else self._turned.force(state, end)
 
     def step_force(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.step_force`."""
         assert self._turned is not None
         return self._turned.step_force(before, after, span)
 
     def mean_stress(self, state: State) -> Floats:
-        """See `Effect.mean_stress`."""
         return self.stress if self._turned is None else self._turned.mean(state)
 
     def stress_at(self, elements: Ints, points: Floats, time: float) -> Floats:
-        """See `Effect.stress_at`."""
         return self.given.at(self._model, elements, points)[:, :3]
 
     def energy(self, state: State) -> float:

@@ -106,7 +106,6 @@ class FieldLoads(Effect):
 
     @property
     def steady(self) -> bool:
-        """See `Effect.steady`."""
         return all(load.steady for load in self.loads)
 
     def force(self, state: State, end: Instant) -> Floats:
@@ -125,7 +124,6 @@ class FieldLoads(Effect):
         return total
 
     def applied_forces(self, state: State) -> AppliedForces:
-        """See `Effect.applied_forces`."""
         now = Instant.of(state)
         return joined(load.applied_forces(self._model, now) for load in self.loads)
 

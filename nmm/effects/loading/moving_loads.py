@@ -93,7 +93,6 @@ class MovingLoads(Effect):
 
     @property
     def steady(self) -> bool:
-        """See `Effect.steady`."""
         return False
 
     def force(self, state: State, end: Instant) -> Floats:
@@ -112,7 +111,6 @@ class MovingLoads(Effect):
         return total
 
     def forget(self) -> None:
-        """See `Effect.forget`."""
         self._known = []
 
     def _acting(self, end: Instant) -> list[tuple[MaterialPoints, Floats]]:

@@ -44,12 +44,10 @@ class SurfacePressures(Effect):
 
     @property
     def steady(self) -> bool:
-        """See `Effect.steady`."""
         return all(one.steady for one in self.pressures)
 
     @property
     def nonlinear(self) -> bool:
-        """See `Effect.nonlinear`."""
         return self._finite
 
     @property
@@ -58,7 +56,6 @@ class SurfacePressures(Effect):
         return not any(one.follows for one in self.pressures)
 
     def step_force(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.step_force`."""
         return self._pressed.step_force(before, after, span)
 
     def applied_forces(self, state: State) -> AppliedForces:
@@ -68,7 +65,6 @@ class SurfacePressures(Effect):
         return joined(AppliedForces.on(self._model, place, force) for place, force in parts)
 
     def force(self, state: State, end: Instant) -> Floats:
-        """See `Effect.force`."""
         return self._pressed.force(state, end)
 
     def matrix(self, state: State) -> csc_array:
@@ -82,7 +78,6 @@ class SurfacePressures(Effect):
         return self._kept[1]
 
     def forget(self) -> None:
-        """See `Effect.forget`."""
         self._kept = None
 
     def work(self, before: State, after: State) -> float:

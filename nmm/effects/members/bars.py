@@ -92,7 +92,6 @@ class BarMembers(Linked):
 
     @property
     def about(self) -> str:
-        """See `Effect.about`."""
         chains = self.members.chains
         return f"{len(chains.axial)} links, {len(chains.bond)} points of bond"
 

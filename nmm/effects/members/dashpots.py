@@ -43,7 +43,6 @@ class PointDashpots(Effect):
         return cls(setup, tuple(one.name for one in dashpots), links, viscosity)
 
     def step_force(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.step_force`."""
         n = len(before.deformation)
         if span.step is None:
             none = np.zeros(len(self.links))
@@ -65,7 +64,6 @@ class PointDashpots(Effect):
         return StepForce(pull, stiffness, self._remembered(force))
 
     def loss(self, before: State, after: State) -> float:
-        """See `Effect.loss`."""
         return float(self._mean(before, after) @ self._elongation(before, after))
 
     def applied_forces(self, state: State) -> AppliedForces:
@@ -74,7 +72,6 @@ class PointDashpots(Effect):
         return joined([self.links.first.pushed(pull), self.links.second.pushed(-pull)])
 
     def forget(self) -> None:
-        """See `Effect.forget`."""
         self._stretch.forget()
         self._kept.forget()
 
@@ -84,7 +81,6 @@ class PointDashpots(Effect):
         return {f"{name}:force": float(force) for name, force in pairs}
 
     def segments(self, state: State) -> MemberSegments:
-        """See `Effect.segments`."""
         owner, slip = np.arange(len(self.names)), np.zeros(len(self.names))
         return MemberSegments(self.links.place(state), owner, self.names, self._last(state), slip)
 

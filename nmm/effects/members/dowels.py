@@ -73,7 +73,6 @@ class Dowels(Linked):
 
     @property
     def about(self) -> str:
-        """See `Effect.about`."""
         return f"{len(self.members.owner)} joints crossed"
 
     def history(self, state: State) -> dict[str, float]:

@@ -42,7 +42,6 @@ class Linked(Effect):
 
     @property
     def nonlinear(self) -> bool:
-        """See `Effect.nonlinear`."""
         return not (self.members.links.small and self.members.chains.linear)
 
     @property
@@ -51,7 +50,6 @@ class Linked(Effect):
         return not self.members.chains.linear
 
     def force(self, state: State, end: Instant) -> Floats:
-        """See `Effect.force`."""
         return self._forces.of(state)
 
     def _force(self, state: State) -> Floats:
@@ -59,7 +57,6 @@ class Linked(Effect):
         return links.pull(state, links.lines(state), self._answers.of(state).axial.force)
 
     def applied_forces(self, state: State) -> AppliedForces:
-        """See `Effect.applied_forces`."""
         links = self.members.links
         pull = self._answers.of(state).axial.force[:, None] * links.lines(state).along
         return joined([links.first.pushed(pull), links.second.pushed(-pull)])
@@ -83,7 +80,6 @@ class Linked(Effect):
         return self._kept.of(made_of, LIKE if self.nonlinear else 0.0, made)
 
     def step_force(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.step_force`."""
         members, links, weight = self.members, self.members.links, span.weight
         start, end = self._answers.of(before), self._answered(after)
         if len(end.broken):
@@ -108,7 +104,6 @@ class Linked(Effect):
         return StepForce(pull, stiffness, self._remembered(before, end))
 
     def energy(self, state: State) -> float:
-        """See `Effect.energy`."""
         chains, found = self.members.chains, self._answers.of(state)
         return chains.axial.energy(found.axial.force) + chains.bond.energy(found.bond.force)
 
@@ -137,7 +132,6 @@ class Linked(Effect):
         return row
 
     def segments(self, state: State) -> MemberSegments:
-        """See `Effect.segments`."""
         members, found = self.members, self._answers.of(state)
         slip = np.append(found.slip, 0.0)  # -1 is a fixed end
         mean = (slip[members.chains.left] + slip[members.chains.right]) / 2
@@ -149,7 +143,6 @@ class Linked(Effect):
         return (self._offset,)
 
     def carry(self, carried: tuple[Floats]) -> None:
-        """See `Effect.carry`."""
         self._offset = np.array(carried[0])
         self.forget()
 
@@ -158,7 +151,6 @@ class Linked(Effect):
         self._offset = self.members.links.stretch(state)
 
     def forget(self) -> None:
-        """See `Effect.forget`."""
         self._answers.forget()
         self._matrices.forget()
         self._forces.forget()

@@ -40,7 +40,6 @@ class DrivenEdges(Effect):
 
     @property
     def steady(self) -> bool:
-        """See `Effect.steady`."""
         return not self._driven
 
     def damping(self, state: State) -> csc_array:

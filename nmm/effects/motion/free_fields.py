@@ -78,7 +78,6 @@ class FreeFields(DrivenEdges):
 
     @property
     def about(self) -> str:
-        """See `Effect.about`."""
         counts = [len(one.columns[0].modulus) for one in self.sides]
         return f"columns of {' and '.join(map(str, counts))} elements"
 

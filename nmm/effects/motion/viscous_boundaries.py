@@ -112,7 +112,6 @@ class ViscousBoundaries(DrivenEdges):
         return self._standing
 
     def carry(self, carried: Reactions) -> None:
-        """See `Effect.carry`."""
         self._stand(carried)
 
     def force(self, state: State, end: Instant) -> Floats:
@@ -135,12 +134,10 @@ class ViscousBoundaries(DrivenEdges):
 
     @property
     def about(self) -> str:
-        """See `Effect.about`."""
         return f"dashpots at {sum(len(one.dashpots.place) for one in self.boundaries)} points"
 
     @property
     def resolves(self) -> float | None:
-        """See `Effect.resolves`."""
         waves = [motion for one in self.boundaries for motion in one.incoming.values()]
         return min((motion.shortest_step for motion in waves), default=None)
 

@@ -110,7 +110,6 @@ class CohesiveZones(Effect):
 
     @property
     def about(self) -> str:
-        """See `Effect.about`."""
         return f"pieces of {self._table.increment:g} m, stress averaged over {self._length:g} m"
 
     @property
@@ -228,5 +227,4 @@ class CohesiveZones(Effect):
         return self._grown
 
     def carry(self, carried: Mapping[str, float]) -> None:
-        """See `Effect.carry`."""
         self._grown = dict(carried)

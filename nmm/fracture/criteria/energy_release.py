@@ -22,7 +22,6 @@ class EnergyRelease(Criterion):
     """
 
     def kink(self, opening: Floats, sliding: Floats, kappa: Floats) -> Kink:
-        """See `Criterion.kink`."""
         size = np.maximum(np.hypot(opening, sliding), 1e-300)
         one, two = opening / size, sliding / size
         grid = np.radians(np.arange(-WIDEST, WIDEST + STEP / 2, STEP))[:, None]

@@ -13,7 +13,6 @@ class HoopStress(Criterion):
     """A crack grows towards the maximum hoop stress, when that is the one of K_Ic in mode I."""
 
     def kink(self, opening: Floats, sliding: Floats, kappa: Floats) -> Kink:
-        """See `Criterion.kink`."""
         angle = hoop_angle(opening, sliding)
         c, s = np.cos(angle / 2), np.sin(angle / 2)
         return Kink(angle, np.asarray(c**2 * (opening * c - 3 * sliding * s)))

@@ -17,6 +17,5 @@ class StraightAhead(Criterion):
     """
 
     def kink(self, opening: Floats, sliding: Floats, kappa: Floats) -> Kink:
-        """See `Criterion.kink`."""
         opens = np.hypot(opening, sliding)
         return Kink(np.zeros(len(opening)), np.where(opening >= 0, opens, 0.0))

@@ -19,7 +19,6 @@ class StrainEnergyDensity(Criterion):
     """
 
     def kink(self, opening: Floats, sliding: Floats, kappa: Floats) -> Kink:
-        """See `Criterion.kink`."""
         size = np.maximum(np.hypot(opening, sliding), 1e-300)
         one, two = opening / size, sliding / size
         start = hoop_angle(one, two)

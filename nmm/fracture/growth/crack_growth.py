@@ -43,7 +43,6 @@ class CrackGrowth(GrowingCracks):
         return CrackGrowth(change.setup, self._grown_so_far(change), path, parted)
 
     def arrived(self, factor: float, stored: float) -> float:
-        """See `GrowingCracks.arrived`."""
         if not self._followed:
             return 0.0
         before = self._path
@@ -81,7 +80,6 @@ class CrackGrowth(GrowingCracks):
         return (*super().carried(), self._path.stations, self._path.jumped, self.parted)
 
     def carry(self, carried: tuple[Any, ...]) -> None:
-        """See `Effect.carry`."""
         *sofar, stations, jumped, parted = carried
         super().carry(tuple(sofar))
         self._path, self.parted = GrowthPath(np.asarray(stations), jumped), parted

@@ -82,7 +82,6 @@ class GrowingCracks(Effect):
 
     @property
     def about(self) -> str:
-        """See `Effect.about`."""
         said = f"{self._table.criterion}, pieces of {self.rule.increment:g} m"
         return said + self._nucleation.about
 
@@ -140,16 +139,13 @@ class GrowingCracks(Effect):
         return self._nucleation.unopened_strength_ratio(state)
 
     def receive_stresses(self, stresses: Sequence[StressAt]) -> None:
-        """See `Effect.receive_stresses`."""
         self._measured.stresses = stresses
         self._nucleation.receive_stresses(stresses)
 
     def receive_pore_pressures(self, pressures: Sequence[PressureAt]) -> None:
-        """See `Effect.receive_pore_pressures`."""
         self._nucleation.receive_pore_pressures(pressures)
 
     def receive_forces(self, forces: Sequence[AppliedForcesIn]) -> None:
-        """See `Effect.receive_forces`."""
         self._measured.forces = forces
 
     def free(self, found: Intensities) -> Bools:
@@ -248,10 +244,8 @@ class GrowingCracks(Effect):
         return self._sofar.length, self._sofar.energy, self._sofar.shut
 
     def carry(self, carried: tuple[Any, ...]) -> None:
-        """See `Effect.carry`."""
         self._sofar = GrownSoFar(*carried)
 
     def forget(self) -> None:
-        """See `Effect.forget`."""
         self._measured.forget()
         self._nucleation.forget()

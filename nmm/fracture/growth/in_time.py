@@ -42,7 +42,6 @@ class GrowthInTime(GrowingCracks):
 
     @property
     def about(self) -> str:
-        """See `Effect.about`."""
         return f"{super().about}, speed by {self._table.speed or 'freund'}"
 
     @property
@@ -117,7 +116,6 @@ class GrowthInTime(GrowingCracks):
         return (*super().carried(), self._running.arrays, self._released.arrays)
 
     def carry(self, carried: tuple[Any, ...]) -> None:
-        """See `Effect.carry`."""
         *sofar, running, released = carried
         super().carry(tuple(sofar))
         self._running = RunningTips(*running)

@@ -57,13 +57,11 @@ class SubBlocks(BlockCover):
 
     @property
     def piece_glue(self) -> PieceGlue | None:
-        """See `BlockCover.piece_glue`."""
         return PieceGlue(cast(Any, self.glue), self.stiffness) if self.bond == "elastic" else None
 
     def divided(
         self, blocks: Polygons, size: float | None, angle: float, shift: tuple[float, float]
     ) -> tuple[Polygons, Ints]:
-        """See `BlockCover.divided`."""
         assert size is not None
         if self.mesh == "voronoi":
             return _voronoi(blocks, size, self.seed)

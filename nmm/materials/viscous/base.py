@@ -76,11 +76,9 @@ class Viscous(Elastic):
 
     @property
     def swells(self) -> bool:
-        """See `Law.swells`."""
         return True
 
     def variables(self, plane: str) -> History:
-        """See `Law.variables`."""
         return {
             "strain_deviator": np.zeros(4),
             "branch_stress": np.zeros(4 * len(self.branches.times)),
@@ -88,7 +86,6 @@ class Viscous(Elastic):
         }
 
     def update(self, strain: Floats, history: History, plane: str, step: float) -> Response:
-        """See `Law.update`."""
         spring, moduli, times = self.branches
         stiff, before = self.stiff(step), history["strain_deviator"]
         old = history["branch_stress"].reshape(len(strain), len(times), 4)

@@ -28,7 +28,6 @@ class Maxwell(Viscous):
 
     @property
     def branches(self) -> Rheology:
-        """See `Viscous.branches`."""
         return Rheology(0.0, np.array([self.shear]), np.array([self.viscosity / self.shear]))
 
 
@@ -52,11 +51,9 @@ class Kelvin(Viscous):
 
     @property
     def branches(self) -> Rheology:
-        """See `Viscous.branches`."""
         return Rheology(self.shear, np.zeros(0), np.zeros(0))
 
     def stiff(self, step: float) -> float:
-        """See `Viscous.stiff`."""
         ratio = max(step * self.shear / self.viscosity, INSTANT)
         return float(-self.shear / np.expm1(-ratio))
 
@@ -79,7 +76,6 @@ class StandardSolid(Viscous):
 
     @property
     def branches(self) -> Rheology:
-        """See `Viscous.branches`."""
         both = self.shear + self.delayed_modulus
         modulus, time = self.shear**2 / both, self.delayed_viscosity / both
         spring = self.shear * self.delayed_modulus / both

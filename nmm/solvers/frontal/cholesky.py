@@ -35,7 +35,6 @@ class Cholesky(DefiniteSolver):
         return self.unsymmetric().decompose(matrix) if found is None else found
 
     def describe(self, unknowns: int) -> str:
-        """See `LinearSolver.describe`."""
         return f"{self.name} with orders of {ordering()}"
 
     def unsymmetric(self) -> FrontalLU:

@@ -42,7 +42,6 @@ class FrontalLU(DefiniteSolver):
         return SuperLU(self.refinements, self.shift).unsymmetric().decompose(matrix)
 
     def describe(self, unknowns: int) -> str:
-        """See `LinearSolver.describe`."""
         return f"{self.name} with orders of {ordering()}"
 
     def unsymmetric(self) -> "FrontalLU":

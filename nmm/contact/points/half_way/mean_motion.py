@@ -48,7 +48,6 @@ class MeanMotion(Transform):
     forces: Forces
 
     def apply(self, problem: StepProblem) -> StepProblem:
-        """See `Transform.apply`."""
         (gap, slip), push = self.opened, self.push(*self.forces)
         return with_parts(
             problem,

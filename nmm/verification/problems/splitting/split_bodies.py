@@ -91,7 +91,6 @@ class SplitDisc(SceneCase):
 
     @property
     def variant(self) -> str:
-        """See `Case.variant`."""
         return "with shear" if self.shear else "by tension alone"
 
     def scene(self) -> str:

@@ -67,7 +67,6 @@ class CrushedColumn(SceneCase):
 
     @property
     def variant(self) -> str:
-        """See `Case.variant`."""
         return "in tension" if self.tension else "in compression"
 
     def scene(self) -> str:
