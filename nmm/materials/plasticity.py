@@ -80,7 +80,10 @@ def grown(history: History, strain: Floats) -> Floats:
 
     It is that of shape and not of volume.
     """
-    flow = strain - inelastic(history)
+    before = inelastic(history)
+    if strain is before:  # nothing flows
+        return history["accumulated_plastic_strain"][:, 0]
+    flow = strain - before
     flow = flow - flow[:, [0, 1, 3]].sum(axis=1)[:, None] / 3 * EVEN
     size = np.sqrt(2 / 3 * (np.array([1, 1, 0.5, 1]) * flow**2).sum(axis=1))
     return np.asarray(history["accumulated_plastic_strain"][:, 0] + size)

@@ -5,7 +5,7 @@ Size of the deviator and mean stress span a plane in which the yield surface is 
 return to one of them or to the corner (`nmm.materials.returns.planes`).
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -104,15 +104,12 @@ def cone_return(
     # One tangent for all points, copied where some flow.
     tangent = np.broadcast_to(cone.elastic, (len(trial), 3, 3))
     stress = deviator + trial[:, 1:] * MEAN
-    found = ReturnedStress(stress, tangent, plastic.copy(), weakening.done.copy())
     flows = np.flatnonzero(cone.flows(trial, weakening.done))
     if not len(flows):
-        return found
+        return ReturnedStress(stress, tangent, plastic, weakening.done)
     back = _returned(trial[flows], deviator[flows], cone, weakening.at(flows))
-    found = replace(found, tangent=tangent.copy())
-    found.stress[flows], found.tangent[flows] = back.stress, back.tangent
-    found.plastic_strain[flows] += back.plastic_strain
-    found.softened[flows] = back.softened
+    found = ReturnedStress(stress, tangent.copy(), plastic.copy(), weakening.done.copy())
+    found.put(flows, back)
     return found
 
 

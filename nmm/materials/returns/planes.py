@@ -142,6 +142,12 @@ class ReturnedStress:
     plastic_strain: Floats
     softened: Floats
 
+    def put(self, points: Bools | Ints, back: Self) -> None:
+        """Put what points have returned to; its plastic strain is by how much theirs grows."""
+        self.stress[points], self.tangent[points] = back.stress, back.tangent
+        self.plastic_strain[points] += back.plastic_strain
+        self.softened[points] = back.softened
+
 
 def falling(strength: Floats, share: float) -> Floats:
     """Return by how much strengths (p,) fall in all that lose a share; infinite ones do not."""

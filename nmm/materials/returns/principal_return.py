@@ -4,7 +4,7 @@ Planes of the pyramid and of the tension cut-off are linear in principal stresse
 largest tension: stresses return to a plane, an edge or a corner (`nmm.materials.returns.planes`).
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Self
 
@@ -132,15 +132,12 @@ def principal_return(
     stress = elastic @ pyramid.whole
     # One tangent for all points, copied where some flow.
     tangent = np.broadcast_to(pyramid.whole[:3, :3], (len(strain), 3, 3))
-    found = ReturnedStress(stress, tangent, plastic.copy(), weakening.done.copy())
     flows = pyramid.flows(_values(stress), weakening.done)
-    if flows.any():
-        back = _returned(elastic[flows], pyramid, weakening.at(flows))
-        tangent = tangent.copy()
-        stress[flows], tangent[flows] = back.stress, back.tangent
-        found = replace(found, tangent=tangent)
-        found.plastic_strain[flows] += back.plastic_strain
-        found.softened[flows] = back.softened
+    if not flows.any():
+        return ReturnedStress(stress, tangent, plastic, weakening.done)
+    back = _returned(elastic[flows], pyramid, weakening.at(flows))
+    found = ReturnedStress(stress, tangent.copy(), plastic.copy(), weakening.done.copy())
+    found.put(flows, back)
     return found
 
 
