@@ -13,10 +13,10 @@ from nmm.stepping.drive.verdict import MEANT
 from nmm.verification.hard.oracles.echoes import lost
 from nmm.verification.hard.spoilt.mutations import bases, shrunk, sound_files, spoilt, verdict
 from nmm.verification.hard.spoilt.mutators import keys_of
-from nmm.verification.hard.spoilt.sound_effects import EFFECTS
-from nmm.verification.hard.spoilt.sound_texts import DYNAMIC, STATIC
+from nmm.verification.hard.spoilt.sound_files import formulations, minimal
 
 FEW, MANY = 30, 50_000
+DYNAMIC, STATIC = minimal()["dynamic"], minimal()["static"]
 
 
 def _keys(table):
@@ -94,11 +94,8 @@ def test_spoilt_files_that_are_prepared_run_to_a_verdict(base):
 
 def test_the_sound_files_are_sound():
     small = [name for name in bases() if name != "formulation method"]
-    from nmm.verification.hard.spoilt.sound_files import minimal
-    from nmm.verification.hard.spoilt.sound_texts import METHOD
-
     assert [verdict(minimal()[name]).outcome for name in small] == ["sound"] * len(small)
-    assert verdict(METHOD, "formulation").outcome == "sound"
+    assert verdict(formulations()["method"], "formulation").outcome == "sound"
 
 
 def test_the_same_seed_spoils_in_the_same_way():
@@ -196,7 +193,7 @@ def test_what_was_a_traceback_is_a_line(more, said):
 
 
 def test_a_segment_without_length_holds_no_temperature():
-    heated = EFFECTS["heated"]
+    heated = minimal()["heated"]
     found = verdict(heated.replace("segment = [[0, 1], [1, 1]]", "segment = [[1, 1], [1, 1]]"))
     assert found.outcome == "refused"
     assert "convections" in found.words

@@ -22,7 +22,6 @@ from nmm.verification.hard.cases.base import Document, HardCase, HardClass
 from nmm.verification.hard.oracles.echoes import lost
 from nmm.verification.hard.spoilt.mutators import keys_of, mutated
 from nmm.verification.hard.spoilt.sound_files import examples, formulations, minimal
-from nmm.verification.hard.spoilt.sound_texts import DYNAMIC
 
 PLACE = "file.toml"
 # Processor seconds that a file may take to be refused or prepared, and bytes that it may ask for.
@@ -98,7 +97,7 @@ def _read(text: str, kind: str) -> tuple[str, str]:
         method = scene.formulation or Formulation()
     else:
         model = method = parse_formulation(text, PLACE)
-        scene = parse_scene(DYNAMIC)
+        scene = parse_scene(minimal()["dynamic"])
     for path in lost(loads(text.removeprefix("\ufeff")), model):
         return f"lost {path}", "the file says it and the model does not"
     prepare(scene, method).identity()

@@ -4,16 +4,9 @@ import re
 from pathlib import Path
 
 from nmm.shipped import PACKAGE
-from nmm.verification.hard.spoilt.sound_effects import EFFECTS
-from nmm.verification.hard.spoilt.sound_texts import (
-    COVERS,
-    CRACKED,
-    DYNAMIC,
-    JOINTED,
-    METHOD,
-    NETS,
-    STATIC,
-)
+
+FOLDER = Path(__file__).parent / "sound"
+"""Small scenes, one table or more of every effect among them."""
 
 OUTSIDE = re.compile(r'^\w+ = "\w+:\w+"|^file = ', re.MULTILINE)
 """Keys whose value is a module or a file beside the scene: refused before anything else is read."""
@@ -21,18 +14,12 @@ OUTSIDE = re.compile(r'^\w+ = "\w+:\w+"|^file = ', re.MULTILINE)
 
 def minimal() -> dict[str, str]:
     """Return small scenes that have all tables between them, by name."""
-    scenes = {
-        **{"static": STATIC, "dynamic": DYNAMIC, "jointed": JOINTED},
-        **{"cracked": CRACKED, "nets": NETS},
-        **EFFECTS,
-    }
-    covers = {name: f"{STATIC}[formulation.cover]\n{text}" for name, text in COVERS.items()}
-    return {**scenes, **covers}
+    return {path.stem.replace("_", " "): _text(path) for path in sorted(FOLDER.glob("*.toml"))}
 
 
 def formulations() -> dict[str, str]:
     """Return formulation files by name: one of all tables, and complete ones of the examples."""
-    return {"method": METHOD, **_examples(scenes=False)}
+    return {"method": _text(FOLDER.parent / "formulation.toml"), **_examples(scenes=False)}
 
 
 def examples() -> dict[str, str]:
@@ -45,7 +32,7 @@ def _examples(scenes: bool) -> dict[str, str]:
     folder = next(one for one in folders if one.is_dir())
     found = {}
     for path in sorted(folder.rglob("*.toml")):
-        text = path.read_text(encoding="utf-8")
+        text = _text(path)
         is_scene = "plane =" in text
         is_formulation = "[cover]" in text and not is_scene
         if (is_scene if scenes else is_formulation) and _complete(text):
@@ -61,3 +48,7 @@ def _complete(text: str) -> bool:
 
 def _name(folder: Path, path: Path) -> str:
     return path.relative_to(folder).with_suffix("").as_posix()
+
+
+def _text(path: Path) -> str:
+    return path.read_text(encoding="utf-8")
