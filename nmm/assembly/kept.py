@@ -1,4 +1,4 @@
-"""What is made of a state or of an array of it, kept while it is asked for again."""
+"""Caches of values computed from a state, or from an array of it."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Generic, TypeVar
@@ -12,14 +12,14 @@ T = TypeVar("T")
 
 
 class KeptOfStates(Generic[T]):
-    """Values made of the last two states that were asked for, told apart by identity."""
+    """Values of the last two states, told apart by identity."""
 
     def __init__(self, make: Callable[["State"], T]) -> None:
         self._make = make
         self._known: list[tuple[State, T]] = []
 
     def of(self, state: "State") -> T:
-        """Return the value of a state, made where it is not kept."""
+        """Return the value of a state, computed unless it is kept."""
         for known, value in self._known:
             if known is state:
                 return value
@@ -28,15 +28,15 @@ class KeptOfStates(Generic[T]):
         return value
 
     def forget(self) -> None:
-        """Keep nothing: what values are made with has changed."""
+        """Drop all values: what they are computed with has changed."""
         self._known = []
 
 
 class KeptOfPlaces(KeptOfStates[T]):
-    """Values made of where material is alone, be its rates or the time what they may."""
+    """Values that depend on the place of the material alone, not on rates or time."""
 
     def of(self, state: "State") -> T:
-        """Return the value of a state, made where none is kept of the same place."""
+        """Return the value of a state, computed unless one of the same place is kept."""
         frames, deformation = state.frames, state.deformation
         for known, value in self._known:
             if known.frames is frames and known.deformation is deformation:
@@ -47,14 +47,14 @@ class KeptOfPlaces(KeptOfStates[T]):
 
 
 class KeptOfInstants(Generic[T]):
-    """Values made of a place and a time, of which the last two are kept."""
+    """Values of a place and a time, of which the last two are kept."""
 
     def __init__(self, make: Callable[["State", float], T]) -> None:
         self._make = make
         self._known: list[tuple[State, float, T]] = []
 
     def of(self, state: "State", time: float) -> T:
-        """Return the value of a state's place at a time, made where it is not kept."""
+        """Return the value of a state's place at a time, computed unless it is kept."""
         frames, deformation = state.frames, state.deformation
         for known, then, value in self._known:
             if then == time and known.frames is frames and known.deformation is deformation:
@@ -64,23 +64,23 @@ class KeptOfInstants(Generic[T]):
         return value
 
     def forget(self) -> None:
-        """Keep nothing: what values are made with has changed."""
+        """Drop all values: what they are computed with has changed."""
         self._known = []
 
 
 class KeptOfArray(Generic[T]):
-    """A value made of an array that nobody changes, kept while that array is asked for."""
+    """The value of an array that is never changed, kept until another array is given."""
 
     def __init__(self, make: Callable[[Floats], T]) -> None:
         self._make = make
         self._known: tuple[Floats, T] | None = None
 
     def of(self, array: Floats) -> T:
-        """Return the value of an array, made where it is not that of the last one."""
+        """Return the value of an array, computed unless it is the last one."""
         if self._known is None or self._known[0] is not array:
             self._known = array, self._make(array)
         return self._known[1]
 
     def forget(self) -> None:
-        """Keep nothing."""
+        """Drop the value."""
         self._known = None

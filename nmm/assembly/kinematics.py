@@ -1,4 +1,4 @@
-"""How bodies move and strain: what a formulation chooses by ``[rotation] update``."""
+"""The kinematics of bodies, which a formulation chooses by ``[rotation] update``."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from nmm.assembly.motion import State, move, strain_only, translate
 
 @dataclass(frozen=True)
 class Kinematics:
-    """What becomes of a body's place and deformation in a step.
+    """How a body's place and deformation change in a step.
 
     Attributes
     ----------
@@ -31,7 +31,7 @@ class Kinematics:
 
     @property
     def let_go(self) -> "Kinematics":
-        """How bodies move that nothing holds: by large ways, whatever was chosen."""
+        """Kinematics of free bodies: large displacements, whatever was chosen."""
         return self if self.finite else COROTATIONAL
 
 

@@ -1,4 +1,4 @@
-"""Matter that laws answer for point by point: stress, tangent and internal variables of elements.
+"""Nonlinear material: stress, tangent and internal variables of laws at material points.
 
 Only elements whose laws are not linear have such points; the stiffness of the others is one matrix.
 """
@@ -31,7 +31,7 @@ That of the end of a step, which laws are asked for."""
 SIZE = "cell_size"
 """Of the cell of a point (m), for laws that ask for it: no variable, it does not change."""
 
-# Tangents off by this share of the elastic one are that one, rounded.
+# Tangents that differ from the elastic one by less than this share are taken for elastic.
 ROUNDED_TANGENT = 16 * float(np.finfo(float).eps)
 
 
@@ -102,11 +102,11 @@ class Matter:
 
     @property
     def softens(self) -> bool:
-        """Whether some law loses strength in bands of a cell's width."""
+        """Whether a law softens in bands of a cell's width (crack band model)."""
         return any(law.sized for law in self.laws)
 
     def start(self) -> dict[str, Floats]:
-        """Return the history of matter that nothing has happened to: (Q, h) by name.
+        """Return the initial internal variables, (Q, h) by name.
 
         A law whose variable is narrower than another's of the same name uses its first columns.
         """
@@ -141,7 +141,7 @@ class Matter:
         return found if all(law.rests for law in self.laws) else self._loaded(found)
 
     def _loaded(self, history: dict[str, Floats]) -> dict[str, Floats]:
-        """Return the history with what laws that do not rest remember of the initial strain."""
+        """Return the history after the initial strain, of laws whose points do not rest."""
         for law, at in self._points:
             if law.rests:
                 continue
@@ -155,7 +155,7 @@ class Matter:
     def update(
         self, deformation: Floats, history: History, step: float, before: Floats | None = None
     ) -> Response:
-        """Return what all points answer to the unknowns (n,) at the end of a step (s).
+        """Return the response of all points to the unknowns (n,) at the end of a step (s).
 
         ``before`` (n,), of the iterate from which these were found, changes nothing here.
 
@@ -191,7 +191,7 @@ class Matter:
         return stress, tangent, after
 
     def at_rest(self, history: History) -> Response | None:
-        """Return the answer to a step without strain; None where laws must be asked for it."""
+        """Return the response to a step without strain; None where laws must be evaluated."""
         if not all(law.rests for law in self.laws):
             return None
         return Response(history[STRESS], self.elastic, history)
@@ -239,7 +239,7 @@ class Matter:
 
     @cached_property
     def elastic_stiffness(self) -> csc_array:
-        """Stiffness (n, n) of elastic matter."""
+        """Elastic stiffness (n, n)."""
         return self._stiffness(self.elastic, symmetric=True)
 
     def _stiffness(self, tangent: Floats, symmetric: bool) -> csc_array:
@@ -297,7 +297,7 @@ class Matter:
         return [(law, np.flatnonzero(self.law == k)) for k, law in enumerate(self.laws)]
 
     def _own(self, law: Law, history: History, at: Ints | slice) -> dict[str, Floats]:
-        """Return the variables of a law at its points, for it to change as it likes."""
+        """Return a copy of the variables of a law at its points."""
         widths = law.variables(self.plane)
         own = {name: np.array(history[name][at, : len(value)]) for name, value in widths.items()}
         if law.sized and self.size is not None:

@@ -94,19 +94,19 @@ class Model(ElasticSolid):
 
     @property
     def may_bend(self) -> bool:
-        """Whether matter is no line in the displacements, be it in another stage."""
+        """Whether the material response is nonlinear, in this stage or in another one."""
         return self.finite or any(not law.linear for law in self.laws or ())
 
     @property
     def bent(self) -> str:
-        """What makes matter no line in the displacements, in words."""
+        """What makes the material response nonlinear, in words."""
         if self.finite:
             return 'finite strain ([rotation] update: "finite")'
         return "a material that is not linear"
 
     @property
     def elastic_stiffness(self) -> csc_array:
-        """Stiffness (n_unknowns, n_unknowns) of matter to which nothing has happened."""
+        """Elastic stiffness (n_unknowns, n_unknowns)."""
         return self.stiffness if self.matter is None else self.matter.elastic_stiffness
 
     @cached_property
@@ -131,7 +131,7 @@ class Model(ElasticSolid):
         return np.asarray(1 / np.sqrt(np.where(felt > 0, felt, np.inf)))
 
     def history(self) -> History:
-        """Return the internal variables of matter that nothing has happened to, (Q, h) by name."""
+        """Return the initial internal variables, (Q, h) by name."""
         return {} if self.matter is None else self.matter.start()
 
     def tangent(self, state: "State") -> csc_array:
@@ -181,7 +181,7 @@ class Model(ElasticSolid):
         return matter.swollen(before.history, after.history) if isinstance(matter, Matter) else 0.0
 
     def internal(self, state: "State") -> Floats:
-        """Internal force (n,) of matter that is not linear; kept for the last states."""
+        """Internal force (n,) of nonlinear material; kept for the last states."""
         return self._internal.of(state)
 
     @cached_property

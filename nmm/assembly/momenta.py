@@ -1,4 +1,4 @@
-"""Mass and momenta of the bodies of a model as wholes."""
+"""Mass, momentum and angular momentum of the bodies of a model."""
 
 import numpy as np
 from scipy.sparse import coo_array, csc_array, csr_array

@@ -14,15 +14,15 @@ from integration.arrays import Floats
 from nmm.diffusion.problem import DiffusionProblem, step_between
 from nmm.solvers.known import LEAST
 
-# Of a step, about what its length may exceed the longest by.
+# Relative excess over the longest step that is rounding.
 ROUNDING = 1e-9
-# Steps of theta = 1 in place of the first one (Rannacher 1984).
+# Number of implicit Euler steps that replace the first step (Rannacher 1984).
 SOFT = 4
 
 
 @dataclass(frozen=True)
 class FieldAt:
-    """A field at a time (s).
+    """A field at one time.
 
     Attributes
     ----------
@@ -31,14 +31,14 @@ class FieldAt:
     unknowns
         (n,).
     taken
-        What it has taken up since the start of the run, by what gave it.
+        Amount taken up since the start of the run, by its source.
     stored
-        What it holds more than at the start.
+        Increase of the stored amount since the start.
     exchanged
-        Size of what went to and fro at edges, of which ``taken`` is what is left.
+        Sum of the exchanges at edges by size; ``taken`` is their net sum.
     taken_in
-        (n,) what strain makes room for, weighed by the functions of the field; None where the field
-        does not feel strain.
+        (n,) storage by volumetric strain, integrated with the functions of the field; None where
+        the field is not coupled to strain.
     """
 
     time: float
@@ -50,9 +50,9 @@ class FieldAt:
 
     @property
     def imbalance(self) -> float:
-        """What was taken up and is not stored, over all that came and went.
+        """Amount taken up and not stored, over the sum of all amounts by size.
 
-        Where next to nothing flows, all that did is rounding of what is exchanged.
+        Where the net flow is small, that sum is at least the rounding error of the exchanges.
         """
         all_ways = sum(abs(amount) for amount in self.taken.values())
         all_ways = max(all_ways, LEAST * self.exchanged)
@@ -69,7 +69,7 @@ def _parts(field: FieldAt) -> Parts:
 
 
 class FieldCourse:
-    """What a field was and becomes.
+    """A field over the course of time: at the start of a step, and at trial ends.
 
     Parameters
     ----------
@@ -102,7 +102,7 @@ class FieldCourse:
         return self._ends[time]
 
     def begin(self, time: float) -> None:
-        """Drop all but the field at which a step begins."""
+        """Keep only the field at the start of a step."""
         if self._began is None or self._began.time != time:
             self._began, self._ends = self.at(time), {}
 

@@ -1,4 +1,4 @@
-"""Which bodies nothing determines the steady field of."""
+"""Bodies whose steady field is undetermined."""
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -12,7 +12,7 @@ ROUNDING = 1e-9
 
 
 def undetermined(problem: DiffusionProblem) -> Ints:
-    """Return the bodies that are joined to nothing that is held, given or surrounds them."""
+    """Return the bodies without a prescribed value, an exchange, or a joint to a body with one."""
     space, n = problem.space, problem.space.manifold.n_bodies
     owner = csr_array((space.one, (np.arange(space.n), space.body)), shape=(space.n, n))
     # Of a field that is constant in each body edges feel values and jumps alone.

@@ -1,11 +1,11 @@
-"""Conditions on edges: a given flux, exchange with the surroundings, a held value, joints.
+"""Conditions on edges: given flux, exchange with the surroundings, prescribed value, joints.
 
 With ``N`` the value of the field on the edge (the jump across a joint), ``Q`` the flux of the field
-through it, ``g`` what ``N`` is drawn to and ``q`` a flux that is given, the field takes up
+through it, ``g`` the value that ``N`` tends to and ``q`` a given flux, the field takes up
 
     q + s (g - N) + Q
 
-through a unit of the edge: ``s`` is a coefficient of exchange or of a joint, or the penalty of
+per unit of the edge: ``s`` is a coefficient of exchange or of a joint, or the penalty of
 Nitsche's method (1971), which alone has ``Q``. Its matrix is symmetric,
 
     N^T s N - N^T Q - Q^T N.
@@ -26,7 +26,7 @@ Factor = Callable[[float], float]
 
 
 def steadily(time: float) -> float:
-    """Return the factor of what does not change."""
+    """Return the factor of a constant condition."""
     return 1.0
 
 

@@ -1,4 +1,4 @@
-"""The effect of a field in the course of a run: what temperature and water head have in common.
+"""The effect of a scalar field in a run: what temperature and water head have in common.
 
 A field acts on displacements and is not acted upon: places and openings are those of the reference
 place.
@@ -92,7 +92,7 @@ class FieldEffect(Effect):
         return self.course.at(time * self._second)
 
     def acting(self, time: float) -> Floats:
-        """Unknowns (n,) of what makes the stress, at a time of the run: the field itself."""
+        """Unknowns (n,) that cause stress, at a time of the run: by default the field itself."""
         return self.here(time).unknowns
 
     @property
@@ -115,7 +115,7 @@ class FieldEffect(Effect):
         return self.stress.force(unknowns)
 
     def _begin(self, state: State, end: Instant) -> None:
-        """Let a step from a state to its end begin."""
+        """Begin a step from a state."""
         if end.time > state.time:
             self.course.begin(state.time * self._second)
 
@@ -152,7 +152,7 @@ class FieldEffect(Effect):
         return element_slopes(self.space)
 
     def amounts(self, state: State) -> Mapping[str, float]:
-        """Return what was taken up since the start, and is stored; rates of a steady field."""
+        """Return the amounts taken up and stored since the start; rates for a steady field."""
         here = self.here(state.time)
         found = {f"taken:{name}": amount for name, amount in here.taken.items()}
         return found if self.course.steady else {**found, "stored": here.stored}
@@ -173,7 +173,7 @@ class FieldEffect(Effect):
             self.stress.forget()
 
     def follow(self, change: "Change") -> "FieldEffect":
-        """Return the field on the new model; blocks that are new have the initial one."""
+        """Return the field on the new model; new blocks have the initial field."""
         new = type(self).from_setup(change.setup)
         if new.course.steady:
             return new

@@ -41,7 +41,7 @@ class FieldStress:
 
     @cached_property
     def room(self) -> csr_array:
-        """(n, n_unknowns) what the motion of the blocks makes room for: ``coupling`` transposed."""
+        """(n, n_unknowns) storage by the motion of the blocks: ``coupling`` transposed."""
         return csr_array(self.coupling.T)
 
     def force(self, unknowns: Floats) -> Floats:

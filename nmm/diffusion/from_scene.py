@@ -1,4 +1,4 @@
-"""The equations of a field of a scene, whatever the field is: temperature or water head."""
+"""The equations of a scalar field of a scene, be it temperature or water head."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -62,7 +62,7 @@ class GivenTable:
 
 @dataclass(frozen=True)
 class FieldTables:
-    """What a scene says of a field.
+    """The tables of a scene for a field.
 
     Attributes
     ----------
@@ -188,7 +188,7 @@ def _edges(setup: Setup, space: ScalarSpace, tables: FieldTables) -> Iterator[Ed
 
 
 def _joints(setup: Setup, space: ScalarSpace, tables: FieldTables) -> Iterator[Edge]:
-    """Yield what joints between blocks and the faces of cracks conduct."""
+    """Yield the conditions of joints between blocks and of conducting cracks."""
     scene, materials = setup.scene, list(setup.scene.materials)
     joining = JointParts(space, setup.model, tables.conductivity)
 
@@ -212,7 +212,7 @@ def _sources(setup: Setup, space: ScalarSpace, tables: FieldTables) -> Iterator[
 
 
 def _given(setup: Setup, space: ScalarSpace, tables: FieldTables) -> Iterator[GivenField]:
-    """Yield fields that are given in whole blocks."""
+    """Yield prescribed fields of whole blocks."""
     for one in tables.held:  # a handful
         if one.item.segment is None:
             assert one.values is not None

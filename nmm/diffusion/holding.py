@@ -1,4 +1,4 @@
-"""Nitsche's terms of scalar fields: values held at edges, fields that are one across joints.
+"""Nitsche's terms of scalar fields: prescribed values at edges, continuity across joints.
 
 The flux is taken from donors, larger neighbours of slivers whose polynomials are continued to the
 edge, and the penalty from the largest ratio of ``int (k dT/dn)^2`` to ``int k |grad T|^2`` on them,
@@ -20,7 +20,7 @@ from nmm.assembly.tractions.element_bounds import largest_ratio
 from nmm.diffusion.edges import Edge, Factor, steadily
 from nmm.diffusion.matrices import slope_integrals
 
-# Multiples of the least penalty with which the form is positive.
+# Multiple of the least penalty at which the form is positive.
 SAFETY = 4.0
 
 
@@ -33,7 +33,7 @@ def held(
     name: str,
     factor: Factor = steadily,
 ) -> Edge:
-    """Hold the field at points of an edge; ``conductivity`` (E, 2, 2), ``given`` (m,)."""
+    """Prescribe values ``given`` (m,) at points of an edge; ``conductivity`` (E, 2, 2)."""
     assert place.normal is not None
     donor = donors(model, place.elements)
     area = place.weight * model.thickness
@@ -56,7 +56,7 @@ def tied(
     sides: Sequence[Place],
     name: str,
 ) -> Edge:
-    """Make the field one across the points that two sides share."""
+    """Make the field continuous at the points that two sides share."""
     normal = sides[0].normal
     assert normal is not None
     area = sides[0].weight * model.thickness

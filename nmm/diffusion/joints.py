@@ -1,4 +1,4 @@
-"""Joints that a field crosses: edges that blocks share, sub-blocks, faces of cracks."""
+"""Joints that conduct: edges shared by blocks or sub-blocks, and faces of cracks."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -103,7 +103,7 @@ def _joined(
     values: Sequence[Conductance],
     name: str,
 ) -> Iterator[Edge]:
-    """Yield what joins two sides: pieces of edges with a conductance each."""
+    """Yield the conditions that join two sides: parts of edges with a conductance each."""
     assert piece is not None
     perfect = np.array([value == "perfect" for value in values])
     finite = np.array([0.0 if value in ("perfect", None) else float(value) for value in values])

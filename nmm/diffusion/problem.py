@@ -1,12 +1,12 @@
-"""The equations of a scalar field: ``M dT/dt + K T = f(t)``, with fields that are given.
+"""The equations of a scalar field: ``M dT/dt + K T = f(t)``, with prescribed fields.
 
-Steps in time are those of the theta method,
+Steps in time are by the theta method,
 
     (M + theta dt K) T1 = M T0 + dt ((1 - theta) (f0 - K T0) + theta f1),
 
-stable whatever the step for theta >= 1/2 (Crank and Nicolson 1947 for 1/2). What the field takes up
-in a step is ``dt`` times the weighted mean of what edges and sources give at both ends; it equals
-what is stored, for the constant field is a test function.
+stable for any step if theta >= 1/2 (Crank and Nicolson 1947 for 1/2). What the field takes up in a
+step is ``dt`` times the weighted mean of what edges and sources give at both ends; it equals what
+is stored, since the constant field is a test function.
 """
 
 from collections.abc import Mapping, Sequence
@@ -25,14 +25,14 @@ from nmm.formulation import Solver
 from nmm.solvers.linear import Factor as Decomposed
 from nmm.solvers.linear import LinearSolver, make_solver
 
-# Systems that are kept, of steps of as many lengths.
+# Number of systems that are kept, for steps of different lengths.
 KEPT = 3
-# What flows, as a share of what flows to and fro, that is rounding.
+# Net flow, as a share of the exchanged flow, that is rounding.
 ROUNDED = 4 * float(np.finfo(float).eps)
 
 
 def step_between(begin: float, end: float) -> float:
-    """Return the length of a step: one that differs by the rounding of times is the same."""
+    """Return the length of a step, rounded so that equal steps have equal lengths."""
     return float(f"{end - begin:.12g}")
 
 
@@ -44,7 +44,7 @@ def field_solver(manifold: Manifold, asked: Solver) -> LinearSolver:
 
 @dataclass(frozen=True)
 class VolumeSource:
-    """What the volume gives to the field: a load (n,) at factor 1, and its factor."""
+    """A source in the volume: its load (n,) at factor 1, and its factor."""
 
     name: str
     load: Floats
@@ -53,7 +53,7 @@ class VolumeSource:
 
 @dataclass(frozen=True)
 class GivenField:
-    """The field of whole bodies: which functions (n,), their unknowns (n,), and a factor."""
+    """Prescribed field of whole bodies: which functions (n,), their unknowns (n,), and a factor."""
 
     name: str
     chosen: Bools
@@ -63,7 +63,7 @@ class GivenField:
 
 @dataclass(frozen=True)
 class DiffusionProblem:
-    """A field and all that acts on it.
+    """The equations of a field.
 
     Attributes
     ----------
@@ -95,7 +95,7 @@ class DiffusionProblem:
 
     @cached_property
     def free(self) -> Bools:
-        """(n,) functions that are not given."""
+        """(n,) functions that are not prescribed."""
         found = np.ones(self.space.n, dtype=bool)
         for one in self.given:  # a handful
             found &= ~one.chosen
@@ -111,24 +111,24 @@ class DiffusionProblem:
         return total
 
     def held(self, time: float) -> Floats:
-        """Unknowns (n,) of given fields, zero elsewhere; later ones overwrite earlier ones."""
+        """Unknowns (n,) of prescribed fields, zero elsewhere; later ones overwrite earlier ones."""
         total = np.zeros(self.space.n)
         for one in self.given:  # a handful
             total[one.chosen] = one.factor(time) * one.unknowns[one.chosen]
         return total
 
     def changes(self, begin: float, end: float) -> bool:
-        """Whether anything that acts is other at one time than at another."""
+        """Whether any source or condition differs between two times."""
         return any(factor(begin) != factor(end) for factor in self._varying)
 
     @property
     def still(self) -> bool:
-        """Whether nothing that acts ever changes."""
+        """Whether all sources and conditions are constant in time."""
         return all(factor is steadily for factor in self._varying)
 
     @property
     def _varying(self) -> list[Factor]:
-        """Factors of all that acts."""
+        """Factors of all sources and conditions."""
         return [
             *(edge.factor for edge in self.edges),
             *(source.factor for source in self.sources),
@@ -136,7 +136,7 @@ class DiffusionProblem:
         ]
 
     def rests(self, unknowns: Floats) -> bool:
-        """Whether a field (n,) stays as it is: nothing loads it, and what flows is rounding."""
+        """Whether a field (n,) is stationary: no load, and flows are rounding."""
         return self.still and self._resting.of(unknowns)
 
     @cached_property
@@ -144,7 +144,7 @@ class DiffusionProblem:
         return KeptOfArray(self._flows_nowhere)
 
     def _flows_nowhere(self, unknowns: Floats) -> bool:
-        """Whether a field (n,) is even where nothing loads it: small loads would add up."""
+        """Whether a field (n,) without loads is uniform; small loads would add up."""
         free = self.free
         if self.load(0.0).any() or not np.array_equal(unknowns[~free], self.held(0.0)[~free]):
             return False
@@ -152,13 +152,13 @@ class DiffusionProblem:
         return bool(np.all(np.abs(flows)[free] <= ROUNDED * all_ways[free]))
 
     def steady(self, time: float) -> Floats:
-        """Unknowns (n,) of the field that no longer changes."""
+        """Unknowns (n,) of the steady field."""
         return self._solved(0.0, self.load(time), time)
 
     def stepped(
         self, before: Floats, begin: float, end: float, theta: float, room: Floats | None = None
     ) -> Floats:
-        """Unknowns (n,) after a step; what is given jumps to its value at the end.
+        """Unknowns (n,) after a step; prescribed fields jump to their values at the end.
 
         ``before`` (n,) are those at its beginning; ``room`` (n,) is filled in the step besides.
         """

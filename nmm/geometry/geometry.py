@@ -1,4 +1,4 @@
-"""What a model covers: blocks, and the cracks in them."""
+"""The geometry of a model: blocks, and the cracks in them."""
 
 from dataclasses import dataclass
 

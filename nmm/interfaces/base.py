@@ -1,4 +1,4 @@
-"""What an interface law is to contact: limits of force, what it remembers, when a bond breaks."""
+"""The base class of interface laws: limits of force, internal variables, failure of bonds."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
@@ -18,9 +18,9 @@ from nmm.registry import Registry
 class InterfaceLaw(ABC):
     """Base of interface laws; a frozen set of parameters in SI units.
 
-    A law says what holds while its history stands (`response`) and how the history goes on
-    (`evolved`); a solution of contact is repeated until both agree. `update` is the two together at
-    a point.
+    A law gives the response at a fixed history (`response`) and the history after a step
+    (`evolved`); the contact solution is repeated until both agree. `update` is both together at a
+    point.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class InterfaceLaw(ABC):
     dilation_angle
         rad: sliding by ``s`` lifts the faces apart by ``s tan(dilation_angle)``.
     dilation_slip
-        m of sliding after which nothing lifts any more.
+        m of sliding after which dilation ends.
     damping
         Share of critical damping of the normal spring while it is pressed, >= 0.
     """
@@ -59,7 +59,7 @@ class InterfaceLaw(ABC):
 
     @property
     def columns(self) -> Mapping[str, HistoryColumn]:
-        """What the law remembers of a contact beside its bond and its plastic slip."""
+        """Internal variables of a contact besides its bond and its plastic slip."""
         return {"cumulative_slip": CUMULATIVE_SLIP} if self.dilation_angle else {}
 
     @property
@@ -69,10 +69,10 @@ class InterfaceLaw(ABC):
 
     @abstractmethod
     def response(self, history: History, stiffness: Floats) -> InterfaceResponse:
-        """Return springs and limits of contacts while their ``history`` stands.
+        """Return springs and limits of contacts at a fixed ``history``.
 
-        They hang on bonds and on the law's own `columns`, not on the plastic slip.
-        ``stiffness`` (m,) is that of the whole bonds in the normal direction (Pa/m).
+        They depend on bonds and on the law's own `columns`, not on the plastic slip.
+        ``stiffness`` (m,) is the normal stiffness of undamaged bonds (Pa/m).
         """
 
     def evolved(
@@ -87,9 +87,9 @@ class InterfaceLaw(ABC):
         gap
             (m,) at the end of it, elastic part and crack (m).
         sliding
-            (m,) by how far it slid in the step beyond its elastic stretch, with its sign (m).
+            (m,) increment of the plastic slip, with its sign (m).
         stiffness
-            (m,) of the whole bonds in the normal direction (Pa/m).
+            (m,) normal stiffness of undamaged bonds (Pa/m).
         """
         after = dict(history) | {"plastic_slip": history["plastic_slip"] + sliding}
         if "cumulative_slip" in self.columns:
@@ -97,18 +97,18 @@ class InterfaceLaw(ABC):
         return after
 
     def dissipated(self, passage: Passage) -> Floats:
-        """Return the energy (m,) that bonds which lose their strength took in a step (J/m2).
+        """Return the energy (m,) that softening bonds dissipated in a step (J/m2).
 
-        Here it is what `dissipated_by_means` says, right where the step is short. A law that knows
-        what its history took says so.
+        By default it is `dissipated_by_means`, which is right for short steps. A law that knows its
+        dissipation from the history overrides it.
         """
         return self.dissipated_by_means(passage)
 
     @final
     def dissipated_by_means(self, passage: Passage) -> Floats:
-        """Return the work (m,) of the mean tractions of both ends less what springs store (J/m2).
+        """Return the work (m,) of the mean tractions in a step less the stored energy (J/m2).
 
-        It is what the work of mean loads holds of it, whatever they were within the step.
+        It balances the work of mean loads, whatever they were within the step.
         """
         lifts = [self.rise(history) for history in passage.history]
         work = sum(passage.pull) / 2 * (passage.gap[1] - passage.gap[0])
@@ -125,9 +125,9 @@ class InterfaceLaw(ABC):
         return np.zeros(len(pull))
 
     def onset(self, pull: Floats, shear: Floats) -> Floats:
-        """Return stress over strength (m,) of whole bonds that no spring of the law's own holds.
+        """Return stress over strength (m,) of undamaged bonds that have no spring of the law's own.
 
-        Above 1 the law takes over: such a bond breaks at once, or begins to soften.
+        Above 1 such a bond breaks at once, or begins to soften.
         """
         return self.overload(pull, shear)
 
@@ -146,7 +146,7 @@ class InterfaceLaw(ABC):
 
     @final
     def initial(self, bonded: Bools) -> dict[str, Floats]:
-        """Return the history (m,) of contacts that a bond holds, or none."""
+        """Return the initial history (m,) of contacts with a bond, or without."""
         return {
             name: np.where(bonded, column.bonded, column.unbonded).astype(
                 bool if name == "bonded" else float
@@ -167,7 +167,7 @@ class InterfaceLaw(ABC):
         return np.asarray(np.where(held, np.tan(self.friction_angle), np.tan(self.residual_angle)))
 
     def rise(self, history: History) -> Floats:
-        """Return by how much sliding has lifted the faces (m,), in m."""
+        """Return the opening (m,) by dilation, in m."""
         if not self.dilation_angle:
             return np.zeros(len(history["bonded"]))
         lifting = np.minimum(history["cumulative_slip"], self.dilation_slip)

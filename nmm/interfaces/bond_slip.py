@@ -1,4 +1,4 @@
-"""Laws of the bond between a bar and what is around it: shear stress over slip.
+"""Laws of the bond between a bar and the material around it: shear stress over slip.
 
 A law is its curve under growing slip. Slip that is taken back goes with the initial stiffness, and
 what has slid stays; the strength left is that of the slip so far, back and forth added.
@@ -71,7 +71,7 @@ class BondLaw(ABC):
         return f"bond law {type(self).__name__}"
 
     def _asked(self, slips: int, *names: str) -> None:
-        """Refuse constants that are missing, and numbers of slips that are not those asked for."""
+        """Refuse missing constants, and a wrong number of slips."""
         missing = [name for name in names if getattr(self, name) is None]
         if missing or len(self.slips) != slips:
             given = f"{len(self.slips)} slips" if not missing else f"no {missing[0]}"
@@ -83,7 +83,7 @@ class BondLaw(ABC):
 
 @dataclass(frozen=True)
 class LinearBond(BondLaw):
-    """``tau = k s``: it never fails."""
+    """``tau = k s`` without failure."""
 
     def __post_init__(self) -> None:
         self._asked(0, "stiffness")
@@ -99,7 +99,7 @@ class LinearBond(BondLaw):
 
 @dataclass(frozen=True)
 class PlasticBond(BondLaw):
-    """``tau = k s`` up to the strength, which stays."""
+    """``tau = k s`` up to the strength, which is then kept."""
 
     def __post_init__(self) -> None:
         self._asked(0, "stiffness", "strength")
@@ -113,7 +113,7 @@ class PlasticBond(BondLaw):
 
 @dataclass(frozen=True)
 class BilinearBond(BondLaw):
-    """To the strength at the first of two slips, and down to the residual at the second."""
+    """Linear to the strength at the first of two slips and to the residual one at the second."""
 
     def __post_init__(self) -> None:
         self._asked(2, "strength")

@@ -1,4 +1,4 @@
-"""What interface laws remember of a contact: named columns, one number a contact each."""
+"""Internal variables of interface laws: named columns, one number for each contact."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -10,17 +10,17 @@ History = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class HistoryColumn:
-    """One variable that contacts of a law remember.
+    """One internal variable of the contacts of a law.
 
     Attributes
     ----------
     bonded, unbonded
-        Its value at the start, where a bond holds and where none does.
+        Its initial value, with a bond and without.
     metres
-        Whether it is a length (m), small or large beside the gaps of a scene; otherwise it has no
-        unit and counts beside one.
+        Whether it is a length (m), to be compared with the gaps of a scene; otherwise it is
+        dimensionless and compared with one.
     grows
-        Whether it never becomes less.
+        Whether it never decreases.
     most
         Its largest value.
     """
@@ -33,8 +33,8 @@ class HistoryColumn:
 
 
 CUMULATIVE_SLIP = HistoryColumn(metres=True)
-"""Displacement slid under load, back and forth added (m)."""
+"""Accumulated slip under load (m), whatever its sign."""
 DAMAGE = HistoryColumn(unbonded=1.0, most=1.0)
-"""0 of a whole bond, 1 of a broken one and of a contact that never had one."""
+"""0 for an undamaged bond, 1 for a broken one and for a contact without a bond."""
 KEPT = {"bonded": HistoryColumn(1.0, grows=False), "plastic_slip": HistoryColumn(grows=False)}
 """Columns of every law: whether a bond holds, and the slip that is no longer elastic (m)."""

@@ -1,4 +1,4 @@
-"""Largest forces at contacts: what an interface law tells contact enforcement."""
+"""Largest forces at contacts, which an interface law gives and contact enforcement keeps."""
 
 from dataclasses import dataclass
 
@@ -7,12 +7,12 @@ from integration.arrays import Floats
 
 @dataclass(frozen=True)
 class Limits:
-    """Given numbers that no contact force of this step may exceed.
+    """Bounds of the contact forces of a step.
 
     The admissible forces are ``N <= tension`` and ``|T| <= cohesion + friction * max(-N, 0)``;
-    a contact with ``tension == 0`` that is open carries nothing. Within a step the limits stand
-    (force at a limit, no softening); what breaks for good is for the interface law to decide
-    between two solutions. ``inf`` is allowed: the contact then never opens or slides.
+    a contact with ``tension == 0`` that is open carries nothing. The limits are fixed within a
+    solution (no softening); the interface law decides between two solutions which bonds break.
+    ``inf`` is allowed: the contact then never opens or slides.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What contacts went through in a step: the two ends that an interface law is asked between."""
+"""Gaps, slips and tractions of contacts at the start and at the end of a step."""
 
 from dataclasses import dataclass
 
@@ -20,11 +20,11 @@ class Passage:
     history
         At both ends.
     gap, slip
-        Normal distance, and stretch of the shear spring (m).
+        Gap, and elastic slip (m).
     pull, shear
         Tractions (Pa).
     stiffness
-        Of the whole bonds in the normal direction and along it (Pa/m).
+        Normal and shear stiffness of undamaged bonds (Pa/m).
     """
 
     history: tuple[History, History]
@@ -36,7 +36,7 @@ class Passage:
 
     @property
     def sliding(self) -> Floats:
-        """By how far (m,) they slid beyond the stretch of the spring, with its sign (m)."""
+        """Increment (m,) of the plastic slip, with its sign (m)."""
         start, end = self.history
         return np.asarray(end["plastic_slip"] - start["plastic_slip"])
 

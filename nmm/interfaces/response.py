@@ -1,4 +1,4 @@
-"""An interface law while its history stands: what one solution of a step is posed with."""
+"""An interface law at a fixed history: what one contact solution of a step takes from it."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -17,12 +17,12 @@ class InterfaceResponse:
     Attributes
     ----------
     limits
-        Largest pull and cohesion (Pa), and the tangent of the friction angle. A pull without limit
-        is that of a bond which breaks at once, between two solutions.
+        Tensile strength and cohesion (Pa), and the tangent of the friction angle. An infinite
+        tensile strength is that of a brittle bond, which breaks between two solutions.
     open_share
-        Of the normal stiffness that is left to a bond while it is open.
+        Share of the normal stiffness that an open bond retains.
     rise
-        By how much sliding has lifted the faces (m).
+        Opening by dilation (m).
     """
 
     limits: Limits
@@ -30,7 +30,7 @@ class InterfaceResponse:
     rise: Floats
 
     def pull(self, gap: Floats, bonded: Bools, stiffness: Floats) -> tuple[Floats, Floats, Floats]:
-        """Return the pull (m,) in Pa at a gap (m), its derivative (Pa/m), and the shear's bound.
+        """Return the normal traction (m,) in Pa at a gap (m), its derivative, and the shear bound.
 
         ``bonded`` (m,) are the bonds that were there before; ``stiffness`` (m,) Pa/m.
         """
@@ -45,16 +45,16 @@ class InterfaceResponse:
 
 @dataclass(frozen=True)
 class Traction:
-    """Answer of a law to a gap and a slip.
+    """Response of a law to a gap and a slip.
 
     Attributes
     ----------
     traction
         (m, 2) pull and shear (Pa).
     history
-        What the law remembers afterwards.
+        Internal variables afterwards.
     slopes
-        Gives `tangent`, which costs several times what a traction does, where it is asked for.
+        Computes `tangent` when it is asked for: it costs several times as much as the traction.
     """
 
     traction: Floats

@@ -1,7 +1,7 @@
 """An interface law at a point: traction, tangent and history after a given gap and slip.
 
-A step of a run finds what slides from the balance of bodies; at a point alone it follows from the
-law: the shear spring slides by as much as its bound asks for, which what it slides may change.
+In a run the plastic slip follows from the equilibrium of bodies. At a single point it follows from
+the law: the shear traction returns to its bound, which may itself depend on the plastic slip.
 """
 
 from dataclasses import replace
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
     from nmm.interfaces.base import InterfaceLaw
 
 ROUNDS, CLOSE = 60, 1e-14
-"""Most secants to what slides, and the part of the largest trial stress at which they end."""
+"""Most iterations for the plastic slip, and their tolerance over the largest trial stress."""
 NUDGE = 1e-6
-"""Part of a gap, or of what a spring is stretched by, by which the history is differenced."""
+"""Step of finite differences of the history, as a share of the gap or of the elastic slip."""
 ROUNDED_PLACE = 2e-12
-"""The same of a slip, ten thousand times its rounding; more may reach from sliding to sticking."""
+"""As a share of a slip, 1e4 times its rounding; larger steps may reach from slip to stick."""
 
 # Normal and shear stiffness (m,) in Pa/m.
 Stiffness = tuple[Floats, Floats]
@@ -37,10 +37,10 @@ def mapped(
     def slopes() -> Floats:
         tangent = np.zeros((len(gap), 2, 2))
         tangent[:, 0, 0], tangent[:, 1, 1] = slope, stiffness[1]
-        # While the history stands springs are linear; what it changes is differenced.
+        # At a fixed history springs are linear; effects of its change are by finite differences.
         by_gap, by_slip = _nudge(gap, gap), _nudge(slip, slip - history["plastic_slip"])
         still = np.zeros_like(gap)
-        # All four neighbours of a point are points of the law: gap and slip, more and less.
+        # The four points of central differences in gap and slip are evaluated together.
         known = {name: np.tile(column, 4) for name, column in history.items()}
         stiff = np.tile(stiffness[0], 4), np.tile(stiffness[1], 4)
         here = np.tile(gap, 4), np.tile(slip, 4)
@@ -58,7 +58,7 @@ def mapped(
 
 
 def _nudge(there: Floats, size: Floats) -> Floats:
-    """Return by how much a place (m,) is moved to difference: a part of its ``size`` (m,)."""
+    """Return the steps (m,) of finite differences at values ``there`` of a ``size`` (m,)."""
     scale = np.abs(size) + 1e-3 * np.abs(size).max(initial=1e-12)
     return np.asarray(NUDGE * scale + ROUNDED_PLACE * np.abs(there))
 
@@ -66,7 +66,7 @@ def _nudge(there: Floats, size: Floats) -> Floats:
 def _after(
     law: "InterfaceLaw", history: History, gap: Floats, slip: Floats, stiffness: Stiffness
 ) -> dict[str, Floats]:
-    """Return the history after a gap and a slip: what slid, and bonds that broke at once."""
+    """Return the history after a gap and a slip: plastic slip, and broken bonds."""
     trial = stiffness[1] * (slip - history["plastic_slip"])
     sign, least, most = np.sign(trial), np.zeros_like(trial), np.abs(trial) / stiffness[1]
     close = CLOSE * float(np.abs(trial).max(initial=0.0))
@@ -87,7 +87,7 @@ def _after(
         after, excess = slid(at)
         if np.abs(excess[slides]).max() <= close:
             break
-        # An end that stays once more counts half (Illinois).
+        # The Illinois variant: the value of an end that is retained twice is halved.
         part, side = np.where(np.sign(excess) == side, 0.5, 1.0), np.sign(excess)
         more = excess > 0
         least, over = np.where(more, at, least), np.where(more, excess, part * over)
@@ -114,9 +114,9 @@ def _traction(
 def _pull(
     law: "InterfaceLaw", before: History, after: History, gap: Floats, stiffness: Stiffness
 ) -> tuple[Floats, Floats, Floats]:
-    """Return the pull, its derivative and the shear's bound: limits as they are afterwards.
+    """Return the normal traction, its derivative and the shear bound, at the limits ``after``.
 
-    An open bond is loaded on the secant that the step began with.
+    An open bond is loaded along the secant at the start of the step.
     """
     secant = law.response(before, stiffness[0]).open_share
     response = replace(law.response(after, stiffness[0]), open_share=secant)

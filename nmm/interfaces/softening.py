@@ -1,4 +1,4 @@
-"""Bonds that lose their strength by and by, over an opening that the fracture energy fixes."""
+"""Bonds that lose their strength gradually, over an opening fixed by the fracture energy."""
 
 from abc import abstractmethod
 from collections.abc import Mapping
@@ -21,12 +21,12 @@ from nmm.interfaces.softening_curve import SofteningCurve
 class Softening(MohrCoulomb):
     """Base of cohesive laws (Hillerborg, Modeer and Petersson 1976).
 
-    Tensile strength and cohesion fall together, by the share ``g``, as the crack opens by ``w`` or
-    slides by ``s``; damage is ``w`` (or ``s``) over the width at which nothing is left. What the
-    elastic spring of the bond stretches comes on top of ``w``, so that the area under
-    force-opening is the fracture energy whatever the spring. An opened bond that closes goes back
-    to the origin on its secant, pressed it has its whole stiffness again; a slid one keeps its
-    slip. With the bond, friction passes from its peak to its residual angle.
+    Tensile strength and cohesion decrease together, by the share ``g``, as the crack opens by ``w``
+    or slides by ``s``; damage is ``w`` (or ``s``) over the width at which no strength is left. The
+    elastic stretch of the bond's spring adds to ``w``, so that the area under the curve of force
+    over opening is the fracture energy for any spring. An open bond unloads to the origin along its
+    secant and has its full stiffness under compression; the slip of a sliding one is plastic. As
+    the bond is lost, friction changes from its peak to its residual angle.
     """
 
     def __post_init__(self) -> None:
@@ -40,14 +40,14 @@ class Softening(MohrCoulomb):
     @property
     @abstractmethod
     def curve(self) -> tuple[Floats, Floats]:
-        """Crack widths in units of fracture energy over strength, and share of strength there."""
+        """Crack widths in units of fracture energy over strength, and shares of strength left."""
 
     @property
     def columns(self) -> Mapping[str, HistoryColumn]:
         return {**super().columns, "damage": DAMAGE}
 
     def response(self, history: History, stiffness: Floats) -> InterfaceResponse:
-        """Return what is left of the strength, and the secant of an open bond."""
+        """Return the strength left, and the secant stiffness of open bonds."""
         damage = history["damage"]
         left = self._softens.left(damage)
         strength, crack = left * self.tensile_strength, stiffness * damage * self._widths[-1]

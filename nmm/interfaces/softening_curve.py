@@ -1,4 +1,4 @@
-"""Curves by which bonds lose their strength as they open, and the energy under them."""
+"""Softening curves of bonds: strength over opening, and the energy under them."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ from integration.arrays import Floats
 
 @dataclass(frozen=True)
 class SofteningCurve:
-    """Share of the strength that is left over the width of the crack, by chords.
+    """Piecewise linear share of the strength that is left over the width of the crack.
 
     Attributes
     ----------
@@ -28,7 +28,7 @@ class SofteningCurve:
         return np.asarray(np.interp(damage * self.widths[-1], self.widths, self.share))
 
     def damage(self, left: Floats) -> Floats:
-        """Return the damage (m,) that leaves a share of the strength."""
+        """Return the damage (m,) at a share of the strength."""
         return np.asarray(np.interp(-left, -self.share, self.widths) / self.widths[-1])
 
     def area(self, damage: Floats) -> Floats:

@@ -1,4 +1,4 @@
-"""What a material law is to the rest of the program."""
+"""The base class of material laws, and what they return."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
@@ -16,7 +16,7 @@ History = Mapping[str, Floats]
 
 
 class Response(NamedTuple):
-    """What a law answers at m material points.
+    """Response of a law at m material points.
 
     Attributes
     ----------
@@ -34,7 +34,7 @@ class Response(NamedTuple):
 
 
 class FiniteResponse(NamedTuple):
-    """What a law answers at m Green strains.
+    """Response of a law at m Green strains.
 
     Attributes
     ----------
@@ -55,9 +55,9 @@ class FiniteResponse(NamedTuple):
 class Law(ABC):
     """Base of stress-strain laws; a frozen set of parameters in SI units.
 
-    A linear law defines `stiffness` alone. One that remembers or bends defines `update` and
-    `variables` as well; its `stiffness` is then the elastic one, the unit of penalties and of
-    the first iteration. ``plane`` is "stress" or "strain" everywhere.
+    A linear law defines `stiffness` alone. A law that is nonlinear or has internal variables
+    defines `update` and `variables` as well; its `stiffness` is then the elastic one, used for
+    penalties and in the first iteration. ``plane`` is "stress" or "strain" everywhere.
     """
 
     @abstractmethod
@@ -71,59 +71,58 @@ class Law(ABC):
 
     @property
     def symmetric(self) -> bool:
-        """Whether tangents are symmetric, as where flow follows from the yield surface itself."""
+        """Whether tangents are symmetric, as those of associated flow are."""
         return True
 
     @property
     def rests(self) -> bool:
-        """Whether a step without strain leaves points as they are and elastic, whatever it lasts.
+        """Whether points stay elastic and unchanged in a step without strain, however long.
 
-        Iterations then begin there without asking the law; where they end it is asked.
+        Iterations then begin there without evaluating the law, which is evaluated where they end.
         """
         return False
 
     @property
     def swells(self) -> bool:
-        """Whether it takes ``swelling`` (m, 1) of the history where matter is heated.
+        """Whether the law reads thermal strain from the history, as ``swelling`` (m, 1).
 
-        That is the strain at the end of the step, alike in all three directions, that is free of
-        stress.
+        It is the stress-free strain at the end of the step, equal in all three directions.
         """
         return False
 
     @property
     def sized(self) -> bool:
-        """Whether answers hang on the size of cells: ``cell_size`` (m, 1) in m of the history.
+        """Whether the response depends on the cell size: ``cell_size`` (m, 1) in m of the history.
 
-        Strain that localises does so in one row of cells: what it takes for the area of the band is
-        what its law takes for the volume times the size of the cell (Bazant and Oh 1983).
+        Strain localises in one row of cells: the energy per area of the band is that of the law per
+        volume times the cell size (crack band model, Bazant and Oh 1983).
         """
         return False
 
     def check_size(self, size: Floats) -> None:
-        """Refuse cells of sizes (m,) in m with which the law has no answer.
+        """Refuse cells of sizes (m,) in m that are too large for the law.
 
         Raises
         ------
         FormulationError
-            Naming the largest that it has one with.
+            Naming the largest admissible size.
         """
         return None
 
     def variables(self, plane: str) -> History:
-        """Return the internal variables of one point at the start, (h,) each."""
+        """Return the initial internal variables of one point, (h,) each."""
         return {}
 
     def update(self, strain: Floats, history: History, plane: str, step: float) -> Response:
         """Return stress, tangent and internal variables at the end of a step.
 
-        It is asked many times in a step, always with the variables of its start: a law keeps
-        nothing by itself.
+        It is called many times in a step, always with the variables at its start: a law has no
+        state of its own.
 
         Parameters
         ----------
         strain
-            (m, 3) whole strain at the end of the step (xx, yy, 2 xy), not its increment.
+            (m, 3) total strain at the end of the step (xx, yy, 2 xy), not its increment.
         history
             Internal variables at the start of the step.
         step
@@ -133,17 +132,17 @@ class Law(ABC):
         return Response(strain @ matrix.T, np.tile(matrix, (len(strain), 1, 1)), history)
 
     def under(self, strain: Floats, stress: Floats, across: Floats) -> History:
-        """Return the variables that make a stress (m, 3) and ``across`` (m,) of a strain (m, 3).
+        """Return the internal variables at which a strain (m, 3) gives a stress (m, 3).
 
-        Laws that know of no stress across return nothing.
+        ``across`` (m,) is the stress out of the plane (Pa); laws without one return nothing.
         """
         return {}
 
     def energy(self, stress: Floats, history: History, plane: str) -> Floats:
         """Return the stored energy (m,) in J/m3 at a stress (m, 3) with internal variables.
 
-        What work leaves beyond it counts as dissipated. Here it is that of the elastic strain by
-        the plane `stiffness`.
+        The rest of the work counts as dissipated. By default it is the energy of the elastic
+        strain that follows from `stiffness`.
         """
         elastic = stress @ np.linalg.inv(self.stiffness(plane))
         return np.asarray((elastic * stress).sum(axis=1) / 2)
@@ -151,13 +150,13 @@ class Law(ABC):
     def potential(self, strain: Floats, plane: str) -> FiniteResponse:
         """Return energy, stress and tangent at Green strains (m, 3), for finite strain.
 
-        Of a linear law it is that of St Venant and Kirchhoff: `stiffness` between the Green strain
+        A linear law becomes that of St Venant and Kirchhoff: `stiffness` between the Green strain
         ``(F^T F - 1) / 2`` and the second Piola-Kirchhoff stress.
 
         Raises
         ------
         FormulationError
-            Of laws that remember: they have no potential.
+            For laws with internal variables, which have no potential.
         """
         if not self.linear:
             raise FormulationError(
@@ -171,18 +170,17 @@ class Law(ABC):
         return FiniteResponse((stress * strain).sum(axis=1) / 2, stress, tangent)
 
     def kolosov(self, plane: str) -> float | None:
-        """Return Kolosov's constant of singular fields; None of laws whose fields are others.
+        """Return Kolosov's constant of singular fields; None for laws with other singular fields.
 
         ``(3 - nu) / (1 + nu)`` in plane stress, ``3 - 4 nu`` in plane strain.
         """
         return None
 
     def free_strain(self, plane: str) -> Floats:
-        """Return the strain (3,) in the plane of free matter that swells by 1 in all directions.
+        """Return the strain (3,) in the plane of a free body under a unit isotropic thermal strain.
 
-        In plane strain it is larger, as the third direction is held (Timoshenko and Goodier 1951).
-        Here it is that of a `stiffness` alike in all directions, by ``1 + nu``; a linear law that
-        has axes defines its own.
+        In plane strain it is larger, as the third direction is fixed (Timoshenko and Goodier 1951):
+        ``1 + nu`` for an isotropic `stiffness`; an anisotropic law overrides it.
         """
         held = 0.0
         if plane == "strain":
@@ -191,11 +189,10 @@ class Law(ABC):
         return np.array([1 + held, 1 + held, 0.0])
 
     def pore_share(self, plane: str) -> Floats:
-        """Return the stress (3,) in the plane that a pressure of 1 in all its pores takes.
+        """Return the in-plane stress (3,) that a unit pore pressure carries.
 
-        In plane strain it is 1 itself. In plane stress, where what the pores press across widens
-        matter freely, it is less by what that contracts in the plane: ``(1 - 2 nu) / (1 - nu)`` of
-        a `stiffness` alike in all directions; a linear law that has axes defines its own.
+        It is 1 in plane strain. In plane stress the free expansion out of the plane reduces it to
+        ``(1 - 2 nu) / (1 - nu)`` for an isotropic `stiffness`; an anisotropic law overrides it.
         """
         share = 1.0
         if plane == "stress":

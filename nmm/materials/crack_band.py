@@ -1,4 +1,4 @@
-"""Plastic laws that may soften in bands of a cell's width: strength left, and the largest cells."""
+"""Plastic laws that may soften, regularised by the crack band model: the largest cell size."""
 
 from abc import abstractmethod
 from dataclasses import dataclass, field
@@ -10,21 +10,21 @@ from nmm.materials.plasticity import Plastic
 
 @dataclass(frozen=True)
 class SofteningPlasticity(Plastic):
-    """Base of plastic laws that soften where they are given an energy.
+    """Base of plastic laws that soften if they have a softening energy.
 
     Attributes
     ----------
     softening_energy
-        J/m2 that a band of flow takes for its area until it has softened; None is no softening.
+        Energy per area of a localisation band (J/m2) until it has softened; None: no softening.
     """
 
     softening_energy: float | None = field(default=None, kw_only=True)
 
     @abstractmethod
     def cell_limit(self, energy: float) -> tuple[float, str]:
-        """Return the cell size (m) below which the law has an answer, and what else would raise it.
+        """Return the largest cell size (m) without snap-back, and what else would raise it.
 
-        In larger cells flow takes more strain than the stress that it relieves gives back.
+        In larger cells plastic strain would exceed the elastic strain that unloading releases.
         """
 
     @property

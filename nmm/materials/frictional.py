@@ -1,4 +1,4 @@
-"""What laws share whose strength grows with pressure: constants, their limits, softening."""
+"""Plastic laws with friction: their constants, bounds of these, and softening."""
 
 from abc import abstractmethod
 from collections.abc import Sequence
@@ -78,7 +78,7 @@ class Frictional(SofteningPlasticity):
         self._check_softening()
 
     def _check_softening(self) -> None:
-        """Refuse constants with which it cannot soften."""
+        """Refuse constants with which the law cannot soften."""
         energy = self.softening_energy
         if energy is not None and not (energy > 0 and self.cohesion > 0):
             raise FormulationError(
@@ -113,7 +113,7 @@ class Frictional(SofteningPlasticity):
 
     @property
     def angles(self) -> Floats:
-        """Angles (2, 2) of friction and of dilation, at first and where all of the fall is done."""
+        """Angles (2, 2) of friction and of dilation, initial and fully softened."""
         first = self.friction_angle, self.dilation_angle
         left = self.residual_friction_angle, self.residual_dilation_angle
         last = [one if end is None else end for one, end in zip(first, left, strict=True)]
@@ -122,11 +122,11 @@ class Frictional(SofteningPlasticity):
     @property
     @abstractmethod
     def sets(self) -> Sequence[ActingPlanes]:
-        """Planes of the yield surface that act together."""
+        """Sets of planes of the yield surface that may be active together."""
 
     @property
     def fall(self) -> float:
-        """Share of the strengths that is lost in the end."""
+        """Share of the strengths that is lost when fully softened."""
         return 1 - self.residual_cohesion / self.cohesion if self.sized else 0.0
 
     def cell_limit(self, energy: float) -> tuple[float, str]:
@@ -142,14 +142,14 @@ class Frictional(SofteningPlasticity):
         return {**super().variables(plane), **more}
 
     def weakening(self, history: History) -> StrengthLoss:
-        """Return how far the strengths of points have fallen."""
+        """Return the loss of strength of points."""
         if self.softening_energy is None:
             return StrengthLoss.none(len(history["plastic_strain"]))
         speed = history["cell_size"][:, 0] / 2 / self.softening_energy
         return StrengthLoss(history["softened"][:, 0], speed)
 
     def answer(self, found: ReturnedStress, history: History) -> Response:
-        """Return the response of points whose stress has returned."""
+        """Return the response of points after the return to the yield surface."""
         accumulated = grown(history, found.plastic_strain)
         parts = found.stress, found.tangent, found.plastic_strain, accumulated
         response = flowed(history, *parts)
@@ -160,18 +160,18 @@ class Frictional(SofteningPlasticity):
 
     @property
     def apex(self) -> float:
-        """Tension from all sides at which cohesion ends (Pa); infinite without friction."""
+        """Isotropic tension at the apex (Pa); infinite without friction."""
         tangent = float(np.tan(self.friction_angle))
         return self.cohesion / tangent if tangent else float("inf")
 
     @property
     def tension(self) -> float:
-        """Tension (Pa) at which strength ends: the tensile strength, or the apex."""
+        """Largest isotropic tension (Pa): the tensile strength, or the apex."""
         return self.apex if self.tensile_strength is None else self.tensile_strength
 
     @property
     def symmetric(self) -> bool:
-        """Whether the angles are equal and stay."""
+        """Whether flow is associated and the angles are constant."""
         return bool((self.angles == self.friction_angle).all())
 
     def stiffness(self, plane: str) -> Floats:

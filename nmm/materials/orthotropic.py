@@ -57,7 +57,7 @@ class Orthotropic(Law):
         return np.asarray((whole + whole.T) / 2)
 
     def free_strain(self, plane: str) -> Floats:
-        """See `Law.free_strain`: what is held along axis 3 widens 1 and 2 by their own ratios."""
+        """See `Law.free_strain`: restraint along axis 3 adds strains by its ratios."""
         solid, own = self._compliance(), np.array([1.0, 1.0, 0.0])
         if plane == "strain":
             own[:2] -= solid[:2, 2] / solid[2, 2]
@@ -69,7 +69,7 @@ class Orthotropic(Law):
         return max(self.young_modulus, self.young_modulus_2)
 
     def pore_share(self, plane: str) -> Floats:
-        """See `Law.pore_share`: less by what axis 3, free, contracts each of the others."""
+        """See `Law.pore_share`: reduced by the contraction due to free expansion along axis 3."""
         own = np.array([1.0, 1.0, 0.0])
         if plane == "stress":
             solid = np.linalg.inv(self._compliance())

@@ -9,12 +9,12 @@ from nmm.materials.base import History, Response
 from nmm.materials.elastic import Elastic, elastic_energy
 
 EVEN = np.array([1.0, 1.0, 0.0, 1.0])
-"""Strain (xx, yy, 2 xy, zz) alike in all directions."""
+"""Unit isotropic strain (xx, yy, 2 xy, zz)."""
 
 
 @dataclass(frozen=True)
 class Plastic(Elastic):
-    """Base of laws of which strain is elastic and plastic; they define `update`.
+    """Base of elastoplastic laws; they define `update`.
 
     Notes
     -----
@@ -38,7 +38,7 @@ class Plastic(Elastic):
         }
 
     def under(self, strain: Floats, stress: Floats, across: Floats) -> History:
-        """See `Law.under`: what of the strain is not elastic has been plastic from the start."""
+        """See `Law.under`: strain that is not elastic is plastic from the start."""
         modulus, poisson = self.young_modulus, self.poisson_ratio
         direct = np.column_stack([stress[:, :2], across])
         elastic = ((1 + poisson) * direct - poisson * direct.sum(axis=1)[:, None]) / modulus
@@ -54,7 +54,7 @@ class Plastic(Elastic):
 
 
 def inelastic(history: History) -> Floats:
-    """Return the strain (m, 4: xx, yy, 2 xy, zz) that is not elastic: flow, and what swells."""
+    """Return the inelastic strain (m, 4: xx, yy, 2 xy, zz): plastic and thermal."""
     flow, swelling = history["plastic_strain"], history.get("swelling")
     return flow if swelling is None else flow + swelling * EVEN
 
@@ -62,9 +62,9 @@ def inelastic(history: History) -> Floats:
 def flowed(
     history: History, stress: Floats, tangent: Floats, strain: Floats, accumulated: Floats
 ) -> Response:
-    """Return the response of points whose `inelastic` strain became ``strain`` (m, 4).
+    """Return the response of points with a new `inelastic` strain (m, 4).
 
-    Stress (m, 4) has that across last.
+    Stress (m, 4) is xx, yy, xy, zz.
     """
     swelling = history.get("swelling")
     variables = {
@@ -76,9 +76,9 @@ def flowed(
 
 
 def grown(history: History, strain: Floats) -> Floats:
-    """Return the accumulated plastic strain (m,) where the `inelastic` one became ``strain``.
+    """Return the accumulated plastic strain (m,) at a new `inelastic` strain (m, 4).
 
-    It is that of shape and not of volume.
+    Only its deviatoric part counts.
     """
     before = inelastic(history)
     if strain is before:  # nothing flows

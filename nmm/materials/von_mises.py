@@ -67,12 +67,12 @@ class VonMisesPlasticity(SofteningPlasticity):
         check_residual(energy, left, self.yield_stress, "a stress from 0 to below the yield stress")
 
     def cell_limit(self, energy: float) -> tuple[float, str]:
-        """Return where flow would take more strain than the shear that it relieves."""
+        """Return the size at which plastic strain would exceed the elastic strain released."""
         shear = self.young_modulus / 2 / (1 + self.poisson_ratio)
         return 3 * shear / self._slope(1.0), ""
 
     def _slope(self, size: float | Floats) -> Any:
-        """By how much the yield stress falls over the plastic strain in cells of a size (Pa)."""
+        """Slope by which the yield stress decreases with plastic strain in cells of a size (Pa)."""
         assert self.softening_energy is not None
         return (self.yield_stress - self.residual_stress) ** 2 * size / (2 * self.softening_energy)
 
@@ -88,7 +88,7 @@ class VonMisesPlasticity(SofteningPlasticity):
         return _flowed(history, found)
 
     def _softened(self, strain: Floats, history: History) -> Response:
-        """Return the response in plane strain while the yield stress falls, and after it."""
+        """Return the response in plane strain during softening, and after it."""
         slope = self._slope(history["cell_size"][:, 0])
         last = (self.yield_stress - self.residual_stress) / slope
         before = history["accumulated_plastic_strain"][:, 0]
@@ -105,7 +105,7 @@ class VonMisesPlasticity(SofteningPlasticity):
         return _flowed(history, found)
 
     def energy(self, stress: Floats, history: History, plane: str) -> Floats:
-        """Return the elastic energy and what hardening stores, ``H p^2 / 2``."""
+        """Return the elastic energy and the energy of hardening, ``H p^2 / 2``."""
         hard = self.hardening_modulus * history["accumulated_plastic_strain"][:, 0] ** 2
         return np.asarray(super().energy(stress, history, plane) + hard / 2)
 

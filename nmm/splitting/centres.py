@@ -1,4 +1,4 @@
-"""Stress at the middles of bodies: the mean of the elements that touch the centroid."""
+"""Stress at the centroids of bodies: the mean of the elements that touch the centroid."""
 
 import numpy as np
 import shapely

@@ -20,7 +20,7 @@ AS_LONG = 1e-5
 
 @dataclass(frozen=True)
 class SplitRules:
-    """How far blocks may split: least size (m) of a piece (`sizes`), and largest number."""
+    """Limits of splitting: smallest size (m) of a piece (`sizes`), largest number of blocks."""
 
     smallest: float
     most: int
@@ -34,7 +34,7 @@ def sizes(shapes: Shapes) -> Floats:
 def parts_of(
     polygon: shapely.Polygon, through: Floats, planes: Floats, rules: SplitRules
 ) -> Shapes:
-    """Return the pieces of a block that splits; it alone where one would be too small.
+    """Return the pieces of a block that splits; only the block if a piece would be too small.
 
     Of two planes (2,) it splits along the one on which its new faces are shorter, for less strength
     holds it there, and along both where they are as long.

@@ -1,4 +1,4 @@
-"""What blocks cannot split by, told before anything runs."""
+"""Errors of the scene by which blocks cannot split, reported before the run."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from nmm.splitting.division import sizes
 
 
 def refuse(setup: Setup) -> None:
-    """Refuse what can never split.
+    """Refuse blocks that can never split.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Where blocks are judged: at their middles, or at every one of their elements."""
+"""Where the strength of blocks is checked: at their centroids, or in each element."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -17,7 +17,7 @@ Where = Literal["centroid", "elements"]
 
 @dataclass(frozen=True)
 class Sites:
-    """Places at which the bodies of a material are judged.
+    """Places at which the strength of the bodies of a material is checked.
 
     Attributes
     ----------

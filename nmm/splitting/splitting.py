@@ -1,4 +1,4 @@
-"""Blocks whose stress reaches their strength split (Lin 1995), where they are judged.
+"""Blocks split where their stress reaches their strength (Lin 1995).
 
 In time a piece is judged only once a wave has crossed it since it came to be: until then it has the
 stress that it was born with, which its new faces have not relieved yet. Without this the number of
@@ -42,7 +42,7 @@ class SplitLaw:
 
 
 class Splitting(Effect):
-    """All blocks of materials whose strength a scene names.
+    """The blocks of all materials that may split.
 
     Attributes
     ----------
@@ -84,7 +84,7 @@ class Splitting(Effect):
         return cls(setup, laws)
 
     def follow(self, change: "Change") -> "Splitting":
-        """Return the splitting of the blocks as they are now."""
+        """Return the splitting of the present blocks."""
         new = Splitting(change.setup, self._laws)
         new.kept_whole = self.kept_whole
         bodies = change.parentage.bodies
@@ -95,7 +95,7 @@ class Splitting(Effect):
         return new
 
     def event(self, view: "View") -> Event | None:
-        """Ask for all splits that the state calls for."""
+        """Return the event of all splits in a state, or None."""
         stress, state = view.stress, view.state
         rests = self._rests(state.time)
         polygons, home = None, np.zeros(0, dtype=np.int64)
@@ -187,7 +187,7 @@ def strength_of(table: "SplittingTable") -> BlockStrength:
 
 
 def _said(splits: Mapping[int, Shapes], pulled: int) -> str:
-    """Say how many blocks split, how, and into how many."""
+    """Describe how many blocks split, how, and into how many pieces."""
     n, pieces = len(splits), sum(len(shapes) for shapes in splits.values())
     by = {"tension": pulled, "shear": n - pulled}
     how = ", ".join(f"{count} by {mode}" for mode, count in by.items() if count)

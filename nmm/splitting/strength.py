@@ -1,4 +1,4 @@
-"""What a strength is: from the stress of blocks to how near they are to splitting, and where."""
+"""The base class of strengths: from stresses to their share of the strength, and planes."""
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ from nmm.registry import Registry
 
 @dataclass(frozen=True)
 class SplitJudgement:
-    """How near blocks are to splitting.
+    """Stress over strength of blocks, and the planes of failure.
 
     Attributes
     ----------
@@ -40,7 +40,7 @@ class BlockStrength(ABC):
 
     @abstractmethod
     def judged(self, stress: Floats) -> SplitJudgement:
-        """Judge stresses (m, 3) as xx, yy, xy (Pa), tension positive."""
+        """Compare stresses (m, 3) as xx, yy, xy (Pa), tension positive, with the strength."""
 
 
 STRENGTHS: Registry[type[BlockStrength]] = Registry(

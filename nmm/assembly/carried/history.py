@@ -1,4 +1,4 @@
-"""What matter remembers, carried to the material points of the next model."""
+"""Internal variables transferred to the material points of the next model."""
 
 from collections.abc import Mapping
 

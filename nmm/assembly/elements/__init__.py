@@ -1,1 +1,1 @@
-"""Integrals over elements and their sums: matrices, loads, mass, strain. No law stands here."""
+"""Integrals over elements and their sums: matrices, loads, mass, strain. No constitutive laws."""

@@ -1,1 +1,1 @@
-"""Finite strain: bodies that bend by any angle, by the gradient of displacement at their points."""
+"""Finite strain (total Lagrangian): laws of the displacement gradient at material points."""

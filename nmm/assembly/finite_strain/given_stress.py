@@ -17,7 +17,7 @@ from nmm.assembly.finite_strain.gradients import green, kirchhoff, strain_rates,
 
 @dataclass(frozen=True)
 class GivenStress:
-    """What stresses (Q, 3) at the points of matter do.
+    """Forces of given stresses (Q, 3) at material points.
 
     Attributes
     ----------

@@ -1,1 +1,1 @@
-"""Changes of volume that are held by pressures on patches, beside the stress of each point."""
+"""Projected pressures: volumetric stiffness by pressures on patches, against locking."""

@@ -1,4 +1,4 @@
-"""Tractions across the edges that bodies share: of either side, averaged, and how large.
+"""Tractions across shared edges: of either side, their average, and bounds.
 
 Tractions of contacts are in `contact`.
 """

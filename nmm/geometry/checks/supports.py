@@ -1,4 +1,4 @@
-"""Supports that ask the same material for two displacements."""
+"""Supports that prescribe two displacements of the same material."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from nmm.scene.model import Scene
 
 
 def contradicting_supports(scene: Scene, whole: Regions) -> Iterator[Fault]:
-    """Yield a fault for every two supports that prescribe different ways of one place.
+    """Yield a fault for every two supports that prescribe different displacements of a place.
 
     A support of a whole block prescribes the way of all its points. Two segments contradict each
     other where they share a length, a point contradicts what holds it.

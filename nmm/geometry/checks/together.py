@@ -1,4 +1,4 @@
-"""Which blocks are ever there at the same time: in one stage of a scene, or in all of it."""
+"""Which blocks are present at the same time, in a stage of a scene or throughout."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Self
@@ -42,5 +42,5 @@ class Together:
         return cls(np.array(found or [now]))
 
     def meet(self, first: Ints, second: Ints) -> Bools:
-        """Say which pairs (k,) of blocks are there in one stage."""
+        """Return which pairs (k,) of blocks are present in one stage."""
         return np.asarray((self.present[:, first] & self.present[:, second]).any(axis=0))

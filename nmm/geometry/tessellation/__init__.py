@@ -1,4 +1,4 @@
-"""Regions divided: Voronoi cells, joint sets, sub-blocks.
+"""Regions divided into blocks: Voronoi cells, joint sets, sub-blocks.
 
 With what repairs their scraps and short edges.
 """

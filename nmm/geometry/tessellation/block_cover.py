@@ -12,7 +12,7 @@ from integration.polygons import Polygons
 
 @dataclass(frozen=True)
 class PieceGlue:
-    """What holds the pieces of one block together for good.
+    """The permanent bond between the pieces of one block.
 
     Attributes
     ----------

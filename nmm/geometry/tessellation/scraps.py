@@ -1,4 +1,4 @@
-"""Scraps of a tessellation given to their neighbours."""
+"""Slivers of a tessellation united with their neighbours."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ INSTANT = 1e-6
 
 @dataclass(frozen=True)
 class Maxwell(Viscous):
-    """A spring and a dashpot in series: matter that flows, and relaxes altogether.
+    """A spring and a dashpot in series: creep without bound, complete relaxation.
 
     Attributes
     ----------
@@ -33,7 +33,7 @@ class Maxwell(Viscous):
 
 @dataclass(frozen=True)
 class Kelvin(Viscous):
-    """A spring and a dashpot side by side: elastic in the end, and nearly rigid at first.
+    """A spring and a dashpot in parallel: elastic in the end, and nearly rigid at first.
 
     The modulus is that of the spring. A step is exact where stress is constant; an instant counts
     as 1e-6 of the time ``viscosity / G``.
@@ -84,7 +84,7 @@ class StandardSolid(Viscous):
 
 @dataclass(frozen=True)
 class Burgers(Viscous):
-    """Maxwell's and Kelvin's in series: creep that slows down, but does not end.
+    """Maxwell's and Kelvin's in series: creep that slows down to a constant rate.
 
     Attributes
     ----------
@@ -117,6 +117,6 @@ class Burgers(Viscous):
 
 
 def _roots(total: float, product: float) -> Floats:
-    """Return the two positive numbers of a sum and a product, the larger one first."""
+    """Return the two positive numbers of a given sum and product, the larger one first."""
     large = (total + np.sqrt(total**2 - 4 * product)) / 2
     return np.array([large, product / large])
