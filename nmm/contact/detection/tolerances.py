@@ -82,9 +82,11 @@ MIDPOINT_GAPS = 1e-4
 """Share of the penetrations by which gaps may be off for the rotation of bodies within a step."""
 MIDPOINT_GAPS_OF_MESHES = 1e-5
 """The same where forces act half way on bodies of many elements."""
-MIDPOINT_WAYS = 0.2
-"""Of the way to half way: what counts for a penetration on meshes where it is more, so that energy
-is right to a share of what forces may do in the step."""
+MIDPOINT_WAYS = 1e-4
+"""Of the way to half way: what counts for a penetration where it is more, as exact contacts leave
+none but rounding, which would decide."""
+MIDPOINT_WAYS_OF_MESHES = 0.2
+"""The same on meshes, so that energy is right to a share of what forces may do in the step."""
 
 
 class Rules(NamedTuple):

@@ -14,6 +14,7 @@ from nmm.contact.detection.tolerances import (
     MIDPOINT_GAPS,
     MIDPOINT_GAPS_OF_MESHES,
     MIDPOINT_WAYS,
+    MIDPOINT_WAYS_OF_MESHES,
 )
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints
@@ -57,13 +58,12 @@ class Momentum:
             turned, moved = _motion(used, middle(before, after))
         motions = turn, way + turn * self._across, turned, moved
         edge_a, edge_b, force, gap = _pressing(solved.contacts, solved.answer)
-        share = MIDPOINT_GAPS
+        share, least = MIDPOINT_GAPS, MIDPOINT_WAYS
         if not self._model.of_blocks:
-            # Exact contacts have no penetrations to measure by.
-            share, far = MIDPOINT_GAPS_OF_MESHES, MIDPOINT_WAYS * way.max(initial=0.0)
-            gap = np.maximum(np.abs(gap), far)
+            share, least = MIDPOINT_GAPS_OF_MESHES, MIDPOINT_WAYS_OF_MESHES
+            gap = np.maximum(np.abs(gap), least * way.max(initial=0.0))
         pressing = edge_a, edge_b, force, gap
-        if matters(pressing, self._bodies, motions, share) or _lags(solved, gap, share):
+        if matters(pressing, self._bodies, motions, share, least) or _lags(solved, gap, share):
             return middle(before, after)
         return None
 
@@ -84,6 +84,7 @@ class Momentum:
             _pressing(contacts, contacts),
             (self._bodies, self._across),
             MIDPOINT_GAPS,
+            MIDPOINT_WAYS,
         )
         return way if turns else None
 

@@ -16,18 +16,20 @@ def matters(
     body: Ints,
     motions: tuple[Floats, Floats, Floats, Floats],
     share: float,
+    least: float,
 ) -> bool:
     """Whether gaps are off, with forces not half way, by a ``share`` of the deepest.
 
+    That counts no less than ``least`` of the largest way: exact contacts leave gaps of rounding.
     ``motions`` of bodies (B,): turns (rad) and ways (m) to half way and to there from where forces
     act; ``body`` (n,) of the edges.
     """
     edge_a, edge_b, force, gap = contacts
+    turn, way, turned, moved = motions
     deepest = 0.0
     for c in range(len(gap)):
         if force[c] != 0.0:
-            deepest = max(deepest, abs(gap[c]))
-    turn, way, turned, moved = motions
+            deepest = max(deepest, abs(gap[c]), least * way.max())
     # Most steps turn no body by as much as would matter to any.
     most = turned.max() * way.max() + moved.max() * turn.max()
     if not 2 * most > share * deepest > 0:
@@ -48,6 +50,7 @@ def foreseen(
     contacts: Pressing,
     bodies: tuple[Ints, Floats],
     share: float,
+    least: float,
 ) -> tuple[bool, Floats]:
     """Whether bodies turn so far in a step that its forces should act half way, and its way (n,).
 
@@ -66,7 +69,8 @@ def foreseen(
     for b in range(len(across)):
         turn[b] = abs(whole[3 * b + 2]) / 2
         moved[b] = np.hypot(whole[3 * b], whole[3 * b + 1]) / 2
-    return matters(contacts, body, (turn, moved + turn * across, turn, moved), share), way
+    motions = turn, moved + turn * across, turn, moved
+    return matters(contacts, body, motions, share, least), way
 
 
 @compiled

@@ -1,6 +1,7 @@
 """What turning bodies owe and where forces should act, against plain mechanics and whole arrays."""
 
 import numpy as np
+import pytest
 from scipy.sparse import csc_array
 
 from nmm.assembly.moved_bodies import entries
@@ -15,16 +16,25 @@ def test_a_turn_matters_where_turn_times_way_is_a_share_of_the_deepest_gap() -> 
     motions = turn, way, turn, still
     for share, expected in ((0.39, True), (0.41, False)):
         contact = *ONE, np.array([-1.0]), np.array([-0.1])
-        assert matters(contact, np.arange(2), motions, share) == expected
+        assert matters(contact, np.arange(2), motions, share, 0.0) == expected
     open_contact = *ONE, np.zeros(1), np.array([-0.1])
-    assert not matters(open_contact, np.arange(2), motions, 1e-9)
+    assert not matters(open_contact, np.arange(2), motions, 1e-9, 1.0)
+
+
+@pytest.mark.parametrize("gap", [0.0, 1e-19, -1e-19])
+def test_rounding_of_gaps_does_not_say_whether_a_turn_matters(gap: float) -> None:
+    # By 2 * 0.1 * 0.2 beside a share of 1e-3 of the way of 0.2 m.
+    motions = np.array([0.1, 0]), np.array([0.2, 0]), np.array([0.2, 0]), np.zeros(2)
+    contact = *ONE, np.array([-1.0]), np.array([gap])
+    for share, expected in ((399.0, True), (401.0, False)):
+        assert matters(contact, np.arange(2), motions, share, 1e-3) is expected
 
 
 def test_what_rattles_is_foreseen_to_go_as_far_as_both_steps_agree() -> None:
     flight, last = np.array([1.0, -2.0, 3.0, 0.5]), np.array([0.5, -3.0, -1.0, 0.0])
     rigid = csc_array(np.zeros((4, 6)))
     contact = *ONE, np.array([-1.0]), np.array([-1.0])
-    given = entries(rigid.T.tocsr()), contact, (np.arange(2), np.ones(2)), 0.1
+    given = entries(rigid.T.tocsr()), contact, (np.arange(2), np.ones(2)), 0.1, 0.0
     turns, way = foreseen((flight, last), *given)
     assert not turns
     np.testing.assert_array_equal(way, [0.5, -2.0, 0.0, 0.0])
