@@ -95,7 +95,8 @@ def ablate(
     ----------
     quantities
         What is compared, see `nmm.study.cases.quantities`; else those of the scene's references,
-        displacements of its monitors, or the elastic energy.
+        the factor of safety or the failure load that it asks for, displacements of its monitors, or
+        the elastic energy.
     repeats
         Counted runs of each, after a warm-up where they are short.
 
@@ -136,6 +137,10 @@ def _largest(values: Mapping[str, float], name: str) -> float:
 def _asked(scene: Scene) -> tuple[str, ...]:
     stated = tuple(dict.fromkeys(one.quantity for one in scene.references))
     moved = tuple(f"monitor:{one.name}:u{axis}" for one in scene.monitors for axis in "xy")
+    if scene.strength_reduction is not None:
+        return stated or ("factor_of_safety",)
+    if scene.loading is not None and scene.loading.until == "failure":
+        return stated or ("failure_load", *moved)
     return stated or moved or ("energy",)
 
 

@@ -3,7 +3,10 @@
 from collections.abc import Callable, Iterator
 from copy import deepcopy
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
+
+from nmm.model.build import WHERE_GIVEN
 
 Tables = dict[str, Any]
 
@@ -33,6 +36,15 @@ TABLES = {
     "transient joint flow": ("joint_flow", "joint_heads"),
 }
 """Keys of a scene that go with an effect that is left out."""
+LISTS = {
+    "loads": ("loads",),
+    "members": ("springs", "dashpots", "bars", "foundations", "masses"),
+    "heat": ("temperatures", "heat_fluxes", "heat_sources", "convections"),
+    "water": ("water_pressures", "heads", "inflows", "joint_heads"),
+}
+"""Lists of stages, and the tables whose names stand in them."""
+YIELDS = ("von_mises", "mohr_coulomb", "drucker_prager")
+CREEPS = ("maxwell", "kelvin", "standard_solid", "burgers")
 
 
 @dataclass(frozen=True)
@@ -56,8 +68,9 @@ def omissions(scene: Tables, formulation: Tables) -> Iterator[Omission]:
     """Yield the tables without each effect that a scene names, each load, and what is no table.
 
     The latter are the dowels of its bars, forces that stages hold back, materials that they change,
-    the friction of its interfaces, what the integrator takes of velocities, and rotations that are
-    finite. Tables hold what was given alone, no defaults.
+    the softening, flow and creep of matter, the friction of its interfaces, what the integrator
+    takes of velocities, and rotations that are finite. What stages and loading name of what is left
+    out is taken from their lists. Tables hold what was given alone, no defaults.
     """
     for name, keys in TABLES.items():
         if keys[0] in scene:
@@ -68,6 +81,9 @@ def omissions(scene: Tables, formulation: Tables) -> Iterator[Omission]:
         ("dowels", _without_dowels),
         ("unreleased forces", _released),
         ("changed materials", _unchanged),
+        ("softening of matter", _lasting),
+        ("yield", partial(_elastic, YIELDS)),
+        ("creep", partial(_elastic, CREEPS)),
         ("friction", _frictionless),
         ("kinetic damping", _undamped),
         ("finite rotation", _small),
@@ -78,7 +94,28 @@ def omissions(scene: Tables, formulation: Tables) -> Iterator[Omission]:
 
 
 def _without(scene: Tables, keys: tuple[str, ...]) -> Tables:
-    return {key: value for key, value in scene.items() if key not in keys}
+    found = {key: value for key, value in scene.items() if key not in keys}
+    for listed in (key for tables in LISTS.values() for key in tables if key in keys):
+        found = _unlisted(found, listed, {entry["name"] for entry in scene.get(listed, ())})
+    return found
+
+
+def _unlisted(scene: Tables, key: str, names: set[str]) -> Tables:
+    """Return a scene whose stages and loading no longer name what a table has lost."""
+
+    def left(table: Tables, name: str) -> Tables:
+        listed = table.get(name)
+        if listed is None:
+            return table
+        return {**table, name: [one for one in listed if one not in names]}
+
+    found = dict(scene)
+    (list_name,) = (name for name, tables in LISTS.items() if key in tables)
+    if "stages" in scene:
+        found["stages"] = [left(stage, list_name) for stage in scene["stages"]]
+    if key == "loads" and "loading" in scene:
+        found["loading"] = left(scene["loading"], "scaled")
+    return found
 
 
 def _one_by_one(scene: Tables, formulation: Tables, kind: str) -> Iterator[Omission]:
@@ -91,7 +128,8 @@ def _one_by_one(scene: Tables, formulation: Tables, kind: str) -> Iterator[Omiss
     elif entries:
         for number, entry in enumerate(entries):
             rest = entries[:number] + entries[number + 1 :]
-            yield Omission(f"load {entry['name']}", {**scene, kind: rest}, formulation)
+            unlisted = _unlisted(scene, kind, {entry["name"]})
+            yield Omission(f"load {entry['name']}", {**unlisted, kind: rest}, formulation)
 
 
 Changed = tuple[Tables, Tables] | None
@@ -115,6 +153,25 @@ def _unchanged(scene: Tables, formulation: Tables) -> Changed:
     """With the materials that blocks have at first."""
     changed = [stage.pop("materials", None) for stage in scene.get("stages", ())]
     return (scene, formulation) if any(changed) else None
+
+
+def _lasting(scene: Tables, formulation: Tables) -> Changed:
+    """With matter that yields and keeps its strength."""
+    soft = [one for one in scene.get("materials", {}).values() if "softening_energy" in one]
+    for material in soft:
+        for key in [key for key in material if key.startswith(("softening_", "residual_"))]:
+            del material[key]
+    return (scene, formulation) if soft else None
+
+
+def _elastic(laws: tuple[str, ...], scene: Tables, formulation: Tables) -> Changed:
+    """With matter of some laws that is elastic in place of them."""
+    found = [one for one in scene.get("materials", {}).values() if one.get("law") in laws]
+    for material in found:
+        # An angle of axes that such matter has is of its conductivities.
+        for key in ("law", *(key for key in WHERE_GIVEN if key != "axis_angle")):
+            material.pop(key, None)
+    return (scene, formulation) if found else None
 
 
 def _frictionless(scene: Tables, formulation: Tables) -> Changed:

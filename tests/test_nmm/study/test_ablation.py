@@ -151,3 +151,61 @@ def test_dowels_are_left_out_and_their_bars_stay():
     assert found["dowels"]["bars"] == [{"name": "a"}, {"name": "b"}]
     assert "dowel" in bars[0]
     assert found["bars"] == {}
+
+
+@pytest.mark.parametrize(
+    ("left", "key", "entries"),
+    [
+        ("bars", "members", {"bars": [{"name": "bolt"}], "springs": [{"name": "prop"}]}),
+        ("load wheel", "loads", {"loads": [{"name": "wheel"}, {"name": "wind"}]}),
+        (
+            "water pressures",
+            "water",
+            {"water_pressures": [{"name": "lake"}], "seepage": {}, "heads": [{"name": "well"}]},
+        ),
+    ],
+)
+def test_stages_no_longer_name_what_is_left_out(left, key, entries):
+    names = [one["name"] for table in entries.values() for one in table]
+    stages = [{"name": "in place", key: []}, {"name": "all", key: names}, {"name": "on"}]
+    found = {one.name: one.scene for one in omissions({**entries, "stages": stages}, {})}
+    assert found[left]["stages"] == [stages[0], {"name": "all", key: names[1:]}, stages[2]]
+    assert stages[1][key] == names
+
+
+def test_loads_that_are_left_out_are_not_scaled():
+    tables = {"loads": [{"name": "a"}, {"name": "b"}], "loading": {"scaled": ["a", "b"]}}
+    found = {one.name: one.scene for one in omissions(tables, {})}
+    assert found["load a"]["loading"] == {"scaled": ["b"]}
+
+
+SOIL = {
+    "law": "mohr_coulomb",
+    "young_modulus": 1e8,
+    "poisson_ratio": 0.3,
+    "cohesion": 1e4,
+    "friction_angle": 0.5,
+    "softening_energy": 100.0,
+    "residual_friction_angle": 0.3,
+    "hydraulic_conductivity_2": 1e-6,
+    "axis_angle": 0.2,
+}
+
+
+def test_matter_keeps_its_strength_or_is_elastic_and_conducts_as_before():
+    found = {one.name: one.scene for one in omissions({"materials": {"soil": SOIL}}, {})}
+    lasting = {k: v for k, v in SOIL.items() if not k.startswith(("softening", "residual"))}
+    assert found["softening of matter"]["materials"]["soil"] == lasting
+    kept = ("young_modulus", "poisson_ratio", "hydraulic_conductivity_2", "axis_angle")
+    assert found["yield"]["materials"]["soil"] == {key: SOIL[key] for key in kept}
+    assert "creep" not in found
+    assert "softening_energy" in SOIL
+
+
+def test_what_is_asked_for_is_compared_without_being_named():
+    """``tan 40 / tan 30`` of a block on a joint, and without gravity nothing to reduce."""
+    scene = nmm.read_scene("examples/slope_strength_reduction/block.toml")
+    found = ablate(scene, Formulation())
+    assert found.quantities == ("factor_of_safety",)
+    wanted = np.tan(np.radians(40)) / np.tan(np.radians(30))
+    assert found.whole.values[0] == pytest.approx(wanted, rel=0.011)
