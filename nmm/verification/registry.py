@@ -142,6 +142,7 @@ CASES = Registry[type[Case]](
         "GR10": f"{_HOME}.cracks.crack_paths:StressAlongCrack",
         "GR11": f"{_HOME}.cracks.growth_invariants:SameAnywhere",
         "GR12": f"{_HOME}.cracks.cracks_in_motion:StruckCrack",
+        "GR17": f"{_HOME}.cracks.cracks_in_motion:RunningCrack",
         "GR13": f"{_HOME}.cracks.nucleation:CrackAtHole",
         "GR14": f"{_HOME}.cracks.nucleation:CrackInPlate",
         "GR15": f"{_HOME}.cracks.branched_cracks:BranchedCrack",

@@ -17,6 +17,7 @@ from nmm.effects.base import Instant, Setup
 from nmm.fracture.growth.branching import TWO, Branching
 from nmm.fracture.growth.growing import GrowingCracks
 from nmm.fracture.growth.grown import GrownSoFar, nearest_elements
+from nmm.fracture.growth.inflow import EnergyInflow
 from nmm.fracture.growth.released_tractions import ReleasedTractions, tractions_on_new_faces
 from nmm.fracture.growth.rule import ROUNDING
 from nmm.fracture.growth.running import RunningTips
@@ -38,6 +39,7 @@ class GrowthInTime(GrowingCracks):
         angle, length = self._table.branching, self._table.branching_length
         self._branching = None if angle is None else Branching(angle, length or 0.0)
         self._running = RunningTips.at_rest(len(self._fronts), setup.start.time)
+        self._inflow = EnergyInflow.none(len(self._fronts), setup.start.time)
         self._released = ReleasedTractions.none(setup.model)
 
     @property
@@ -60,8 +62,11 @@ class GrowthInTime(GrowingCracks):
     def accepted(self, state: State) -> None:
         """Advance the tips by the speed at the end of a step."""
         found = self.intensities(state)
-        speed = np.zeros(len(self._fronts))
-        speed[found.front] = self._bound * self._law(found.share) * self.free(found)
+        speed, rate = np.zeros((2, len(self._fronts)))
+        rate[found.front] = found.share**2
+        self._inflow = self._inflow.after(state.time, rate)
+        at_rest = np.sqrt(self._inflow.driving[found.front])
+        speed[found.front] = self._bound * self._law(at_rest) * self.free(found)
         self._running = self._running.advanced(state.time, speed)
 
     @cached_property
@@ -77,22 +82,25 @@ class GrowthInTime(GrowingCracks):
         new = GrowthInTime(change.setup, self._grown_so_far(change))
         length, was = new._fronts.gained(before, after), new._fronts.former(before, after)
         grown = np.flatnonzero(length > 0)
-        running = self._with_new_tips(change, was[len(self._fronts) :])
+        running, inflow = self._with_new_tips(change, was[len(self._fronts) :])
+        new._inflow = inflow.cut(grown, length[grown], np.full(len(grown), self._bound.min()))
         new._running, span = running.cut(grown, length[grown])
         released = tractions_on_new_faces(change, was[grown], span, self._measured.stresses)
         new._released = self._released.followed(change).joined(released)
         return new
 
-    def _with_new_tips(self, change: "Change", born: Floats) -> RunningTips:
+    def _with_new_tips(self, change: "Change", born: Floats) -> tuple[RunningTips, EnergyInflow]:
         """Return the tips with those that began at places (k, 2) of the old model."""
         if len(change.setup.geometry.nuclei) > len(self._setup.geometry.nuclei):
             model = self._setup.model
             element = nearest_elements(model, born)
             speed = rayleigh_speeds(model, element, tip_moduli(model, element)[0])
-            return self._running.begun(len(born), float(speed.min()))
+            running = self._running.begun(len(born), float(speed.min()))
+            return running, self._inflow.begun(len(born))
         # Where a tip branches, both branches go on at its speed.
         away = np.hypot(*np.moveaxis(born[:, None] - self._points, -1, 0))
-        return self._running.divided(np.argmin(away, axis=1))
+        parents = np.argmin(away, axis=1)
+        return self._running.divided(parents), self._inflow.divided(parents)
 
     def _extended(self, found: Intensities) -> tuple[tuple[Floats, ...], str]:
         """See `GrowingCracks._extended`; with tips that branch."""
@@ -100,7 +108,7 @@ class GrowthInTime(GrowingCracks):
             return super()._extended(found)
         cut, cracks = self._setup.model.cut, self._setup.geometry.cracks
         length = self.rule.increment
-        twice = found.share**2 >= TWO
+        twice = self._inflow.driving[found.front] >= TWO
         gained = np.where(self._sofar.length[found.front] > 0, length, 0.0)
         self._running = self._running.fed_by(found.front, twice, gained)
         fed = self._running.fed[found.front] >= self._branching.length * (1 - ROUNDING)
@@ -113,12 +121,13 @@ class GrowthInTime(GrowingCracks):
 
     def carried(self) -> tuple[Any, ...]:
         """See `GrowingCracks.carried`; with the way of the tips and the released tractions."""
-        return (*super().carried(), self._running.arrays, self._released.arrays)
+        mine = self._running.arrays, self._inflow.arrays, self._released.arrays
+        return (*super().carried(), *mine)
 
     def carry(self, carried: tuple[Any, ...]) -> None:
-        *sofar, running, released = carried
+        *sofar, running, inflow, released = carried
         super().carry(tuple(sofar))
-        self._running = RunningTips(*running)
+        self._running, self._inflow = RunningTips(*running), EnergyInflow(*inflow)
         self._released = ReleasedTractions.of_arrays(self._setup.model, released)
 
     def _growing(self, found: Intensities) -> Bools:

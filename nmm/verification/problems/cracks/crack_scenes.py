@@ -53,6 +53,11 @@ def pinned(name: str, point: list[float], *axes: str) -> str:
     return f'[[supports]]\nname = "{name}"\npoint = {point}\nfix = [{fix}]\n'
 
 
+def guided(name: str, segment: Line, axis: str) -> str:
+    """Table of an edge that is held along one axis."""
+    return f'[[supports]]\nname = "{name}"\nsegment = {segment}\nfix = ["{axis}"]\n'
+
+
 def grown(increment: float, most: float, resistance: str = "toughness = 1.0") -> str:
     """Table of growth at the toughness."""
     rule = f'increment = {increment}\nmax_growth = {most}\ncontrol = "toughness"\n'
