@@ -37,20 +37,7 @@ _HOME = {
     "run": "nmm.stepping.run",
 }
 
-__all__ = [
-    "Formulation",
-    "NmmError",
-    "Run",
-    "Scene",
-    "StoredRun",
-    "__version__",
-    "parse_scene",
-    "read_formulation",
-    "read_run",
-    "read_scene",
-    "resume",
-    "run",
-]
+__all__ = [*_HOME, "__version__"]
 
 
 def __getattr__(name: str) -> Any:

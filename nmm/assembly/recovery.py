@@ -26,12 +26,7 @@ EDGE, CORNER = 0.43, 0.3
 
 
 def recovered_stress(
-    model: Model,
-    unknowns: Floats,
-    points: Floats,
-    radius: float,
-    degree: int,
-    pressure: Floats | None = None,
+    model: Model, unknowns: Floats, points: Floats, radius: float, degree: int
 ) -> Floats:
     """Stress (m, 3) in body axes at reference points (m, 2), Pa.
 
@@ -45,8 +40,6 @@ def recovered_stress(
         Elements whose centroids are nearer (m) are fitted: two sizes of a cell.
     degree
         Of the polynomial: that of the local functions and one.
-    pressure
-        (k,) on the patches of projected volumes, see `nmm.assembly.errors.stresses`.
 
     Raises
     ------
@@ -65,18 +58,11 @@ def recovered_stress(
     Where the boundary of the hole meets an axis of symmetry, a corner of a quarter of the plate,
     the peak is right to 1.5 %.
     """
-    found = [_at(model, unknowns, point, radius, degree, pressure) for point in points]
+    found = [_at(model, unknowns, point, radius, degree) for point in points]
     return np.array(found).reshape(-1, 3)
 
 
-def _at(
-    model: Model,
-    unknowns: Floats,
-    point: Floats,
-    radius: float,
-    degree: int,
-    pressure: Floats | None,
-) -> Floats:
+def _at(model: Model, unknowns: Floats, point: Floats, radius: float, degree: int) -> Floats:
     place = at_point(model.manifold, point)
     if not len(place):
         raise GeometryError(
@@ -86,7 +72,7 @@ def _at(
     chosen = _about(model, int(place.elements[0]), point, radius)
     rule = polygon_rule(model.manifold.elements.take(chosen), ORDER)
     rule = type(rule)(rule.points, rule.weights, chosen[rule.owner])
-    stress = stresses(model, unknowns, rule, pressure)
+    stress = stresses(model, unknowns, rule)
     # Near the rim of the body there may be too few elements for the degree.
     fitted = degree
     while fitted and len(chosen) < count(fitted):

@@ -163,7 +163,7 @@ def _msh(path: Path) -> list[_Entry]:
     mesh = meshio.read(path)
     names = {int(tag): name for name, (tag, kind) in mesh.field_data.items() if kind == 2}
     entries: list[_Entry] = []
-    for number, block in enumerate(mesh.cells):
+    for number, block in enumerate(mesh.cells):  # a handful of kinds of cells
         if block.type not in ("triangle", "quad"):
             continue
         tags = mesh.cell_data.get("gmsh:physical", [])

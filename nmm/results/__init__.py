@@ -30,17 +30,7 @@ _HOME = {
     "read_run": "storage.stored_run",
 }
 
-__all__ = [
-    "Frame",
-    "MemorySink",
-    "RunData",
-    "RunFolder",
-    "Sink",
-    "StoredRun",
-    "Summary",
-    "Topology",
-    "read_run",
-]
+__all__ = list(_HOME)
 
 
 def __getattr__(name: str) -> object:

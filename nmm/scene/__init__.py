@@ -21,15 +21,7 @@ if TYPE_CHECKING:
 # this package, so that an eager import here would be circular.
 _READ = ("build_scene", "canonical_text", "json_schema", "parse_scene", "read_scene", "scene_hash")
 _HOME = {"Scene": "nmm.scene.model", **dict.fromkeys(_READ, "nmm.scene.read")}
-__all__ = [
-    "Scene",
-    "build_scene",
-    "canonical_text",
-    "json_schema",
-    "parse_scene",
-    "read_scene",
-    "scene_hash",
-]
+__all__ = list(_HOME)
 
 
 def __getattr__(name: str) -> object:

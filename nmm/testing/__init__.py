@@ -46,25 +46,7 @@ _HOME = {
     "check_strength": "strengths",
 }
 
-__all__ = [
-    "check_block_cover",
-    "check_bond_law",
-    "check_control",
-    "check_cover",
-    "check_criterion",
-    "check_effect",
-    "check_effect_of",
-    "check_enforcement",
-    "check_imposition",
-    "check_integrator",
-    "check_interface_law",
-    "check_law",
-    "check_moved_effect",
-    "check_output",
-    "check_smooth_enforcement",
-    "check_solver",
-    "check_strength",
-]
+__all__ = list(_HOME)
 
 
 def __getattr__(name: str) -> Any:

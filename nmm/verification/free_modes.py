@@ -33,7 +33,7 @@ class Modes:
     shape: Floats
 
 
-def lowest_modes(model: Model, number: int, held: csc_array | None = None) -> Modes:
+def lowest_modes(model: Model, number: int) -> Modes:
     """Return the lowest modes by inverse iteration on a subspace (Lanczos, shift and invert).
 
     Stiffness and mass share the null space of dependent functions. A small part of the diagonal
@@ -48,8 +48,6 @@ def lowest_modes(model: Model, number: int, held: csc_array | None = None) -> Mo
         With densities.
     number
         Number of modes.
-    held
-        (n, n) stiffness of supports.
 
     Raises
     ------
@@ -58,7 +56,7 @@ def lowest_modes(model: Model, number: int, held: csc_array | None = None) -> Mo
     """
     from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
-    stiffness = model.stiffness if held is None else csc_array(model.stiffness + held)
+    stiffness = model.stiffness
     mass = model.mass
     if not mass.nnz or mass.diagonal().max() <= 0:
         raise SolveError("modes: the model has no mass: expected densities: give materials one")

@@ -101,7 +101,7 @@ def ends_of(
         position = np.array([one.points[side] for one in members])
         named = [one.blocks and one.blocks[side] for one in members]
         elements = _elements(setup, position, named)
-        for member, block, element in zip(members, named, elements, strict=True):
+        for member, block, element in zip(members, named, elements, strict=True):  # for faults
             if element < 0 and block != GROUND:
                 faults.append(nowhere(setup, key, member.name, member.points[side], block))
         found.append(MemberEnds.at(setup, position, elements))

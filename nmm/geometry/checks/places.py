@@ -50,27 +50,27 @@ def _findings(item: SupportTable | LoadTable | MonitorTable, whole: Regions) -> 
         yield from _segment_findings(item, whole, chosen)
 
 
-def _named_pieces(scene: Scene, whole: Regions) -> Iterator[Fault]:
-    """The reader knows names of blocks; names of pieces such as "beam.200" are known only here."""
-    named = {
+def _started(scene: Scene) -> dict[str, list[str]]:
+    """Blocks that tables of velocities and stresses at the start name, by key."""
+    return {
         "initial_velocities": [item.block for item in scene.initial_velocities],
         "initial_stresses": [item.block for item in scene.initial_stresses],
     }
-    for key, blocks in named.items():
-        for index, block in enumerate(blocks):
+
+
+def _named_pieces(scene: Scene, whole: Regions) -> Iterator[Fault]:
+    """The reader knows names of blocks; names of pieces such as "beam.200" are known only here."""
+    for key, blocks in _started(scene).items():
+        for index, block in enumerate(blocks):  # a table after the other, to name its place
             if not len(whole.select(block)):
                 yield Fault(scene.source.place(key, index), *_no_block(block))
 
 
 def _given_twice(scene: Scene, whole: Regions) -> Iterator[Fault]:
     """Velocities and stresses at the start that one block has from two tables."""
-    named = {
-        "initial_velocities": [item.block for item in scene.initial_velocities],
-        "initial_stresses": [item.block for item in scene.initial_stresses],
-    }
-    for key, blocks in named.items():
+    for key, blocks in _started(scene).items():
         first = np.full(len(whole), -1)
-        for index, block in enumerate(blocks):
+        for index, block in enumerate(blocks):  # a table after the other
             chosen = whole.select(block)
             twice = chosen[first[chosen] >= 0]
             if len(twice):

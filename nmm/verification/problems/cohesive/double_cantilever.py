@@ -175,7 +175,6 @@ class ClosedAgain(BentApart):
 
     @property
     def variant(self) -> str:
-        """Steps, net and geometry."""
         turns = ", arms turn" if self.turning else ""
         return f"{self.steps} steps each way, net at {self.angle:g} degrees{turns}"
 

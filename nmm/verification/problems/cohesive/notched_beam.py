@@ -35,7 +35,6 @@ class CohesiveBeam(SceneCase):
 
     @property
     def variant(self) -> str:
-        """Drawn or grown, and how the net is turned."""
         if self.angle is None:
             return "drawn plane, net at 17 degrees"
         return f"zone that grows, net at {self.angle:g} degrees"

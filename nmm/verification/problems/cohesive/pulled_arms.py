@@ -50,7 +50,6 @@ class PulledApart(BentApart):
 
     @property
     def variant(self) -> str:
-        """The strength."""
         return f"{self.strength / 1e6:g} MPa"
 
     @property

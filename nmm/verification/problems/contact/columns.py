@@ -163,7 +163,6 @@ class ToppledColumns(LeaningColumns):
 
     @property
     def variant(self) -> str:
-        """What the columns do."""
         return "toe drawn back" if self.retreat else f"phi {self.friction}"
 
     def scene(self) -> str:

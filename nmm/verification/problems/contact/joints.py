@@ -137,7 +137,6 @@ class Chain(SceneCase):
 
     @property
     def variant(self) -> str:
-        """The number of bonds."""
         return f"{len(self.strengths)} bonds"
 
     def scene(self) -> str:

@@ -57,7 +57,6 @@ class AnchorPullOut(SceneCase):
 
     @property
     def variant(self) -> str:
-        """How blocks are joined, how many there are, and what holds the plate's sides."""
         return f"{self.way}, {self.blocks} blocks, k = {'infinity' if self.sides else '0'}"
 
     def scene(self) -> str:

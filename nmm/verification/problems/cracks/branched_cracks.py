@@ -42,7 +42,6 @@ class BranchedCrack(Case):
 
     @property
     def variant(self) -> str:
-        """Angle and length of the branches, what pulls, and the turn."""
         said = f"{self.degrees:g} degrees, branches of {self.branch:g}"
         turned = f", turned by {self.turn:g} rad" if self.turn else ""
         return said + ", with shear" * self.skew + turned

@@ -32,7 +32,6 @@ class MixedKinks(Case):
 
     @property
     def variant(self) -> str:
-        """The criterion."""
         return self.criterion.replace("_", " ")
 
     def checks(self, formulation: str) -> Checks:

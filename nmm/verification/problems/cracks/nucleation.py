@@ -153,7 +153,6 @@ class CrackInPlate(BegunCrack):
 
     @property
     def variant(self) -> str:
-        """What is done to it."""
         if self.bends:
             return f"bending, d = {self.length:g} h, net at {self.angle:g} degrees"
         return f"tension at {self.pulled:g} degrees"

@@ -46,7 +46,6 @@ class PushedCrack(SceneCase):
 
     @property
     def variant(self) -> str:
-        """What acts."""
         how = f" at {self.inclined:g} degrees, friction {self.friction:g}"
         return self.acts + how * (self.acts == "pressed shut")
 

@@ -95,7 +95,6 @@ class EdgeCrack(CrackedBody):
 
     @property
     def variant(self) -> str:
-        """Length over width, and position."""
         moved = f", position {self.position}" if self.length == 0.5 else ""
         return f"a/W = {self.length:g}{moved}"
 

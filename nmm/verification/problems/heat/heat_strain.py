@@ -65,7 +65,6 @@ class Restrained(SceneCase):
 
     @property
     def variant(self) -> str:
-        """Plane and directions."""
         return f"plane {self.plane}, {' and '.join(self.axes)} held"
 
     def scene(self) -> str:

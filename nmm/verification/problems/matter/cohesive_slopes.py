@@ -47,7 +47,6 @@ class CohesiveSlope(JointedSlope):
 
     @property
     def variant(self) -> str:
-        """Dips, cohesion, and which reference is reached."""
         dips = " and ".join(f"{one:g}" for one in self.dips)
         return f"joints at {dips} degrees, c = {self.cohesion / 1e3:g} kPa, {self.reached}"
 

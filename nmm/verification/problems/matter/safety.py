@@ -92,7 +92,6 @@ class SlidingWedge(SceneCase):
 
     @property
     def variant(self) -> str:
-        """The angles, and what else."""
         said = f"face {self.face:g}, joint {self.joint:g}, friction {self.friction:g}"
         more = f", cohesion {self.cohesion / 1e3:g} kPa" if self.cohesion else ""
         return said + more + (", cut" if self.cut else "")

@@ -54,7 +54,6 @@ class JointedSlope(SceneCase):
 
     @property
     def variant(self) -> str:
-        """Dips, spacings, and how it fails."""
         dips, apart = (
             " and ".join(f"{one:g}" for one in two) for two in (self.dips, self.spacings)
         )

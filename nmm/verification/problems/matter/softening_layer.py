@@ -48,7 +48,6 @@ class SofteningLayer(SceneCase):
 
     @property
     def variant(self) -> str:
-        """Law and rows."""
         return f"{self.law}, {self.rows} rows"
 
     def formulation(self, scene: "Scene", name: str) -> Formulation:

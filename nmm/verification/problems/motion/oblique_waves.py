@@ -89,7 +89,6 @@ class ObliqueWave(SceneCase):
 
     @property
     def variant(self) -> str:
-        """Wave and angle."""
         return f"{self.kind} at {self.degrees} degrees"
 
     @cached_property

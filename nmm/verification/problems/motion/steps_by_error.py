@@ -121,7 +121,6 @@ class BarOnWall(SceneCase):
 
     @property
     def variant(self) -> str:
-        """Rule of steps and enforcement."""
         return ", ".join((self.rule.replace("\n", ", "), self.springs)).replace('"', "")
 
     @property

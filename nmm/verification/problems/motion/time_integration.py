@@ -118,7 +118,6 @@ class IntegratorOrder(Case):
 
     @property
     def variant(self) -> str:
-        """The integrator and its options."""
         return f"{self.integrator} {self.options}".rstrip()
 
     def checks(self, formulation: str) -> Checks:

@@ -232,7 +232,6 @@ class Jump(SceneCase):
 
     @property
     def variant(self) -> str:
-        """The stiffness."""
         return f"k = {self.stiffness:g} Pa/m" if self.stiffness < float("inf") else "glued"
 
     def scene(self) -> str:

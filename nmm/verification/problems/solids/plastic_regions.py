@@ -118,7 +118,6 @@ class Footing(SceneCase):
 
     @property
     def variant(self) -> str:
-        """The friction angle, and the law where it is a cone."""
         cone = ", cone" if self.law == "drucker_prager" else ""
         return f"phi {self.friction}{cone}"
 

@@ -73,7 +73,6 @@ class PiecesInFlight(Case):
 
     @property
     def variant(self) -> str:
-        """The motion."""
         return "spin" if self.spins else "gradient of velocity"
 
     def checks(self, formulation: str) -> Checks:

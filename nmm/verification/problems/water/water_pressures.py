@@ -34,7 +34,6 @@ class Dam(SceneCase):
 
     @property
     def variant(self) -> str:
-        """Whether there is uplift."""
         return "uplift" if self.uplift else "no uplift"
 
     def scene(self) -> str:
@@ -136,7 +135,6 @@ class Submerged(SceneCase):
 
     @property
     def variant(self) -> str:
-        """What is below the block."""
         return "sealed base" if self.sealed else "water below"
 
     def scene(self) -> str:

@@ -29,15 +29,9 @@ def held_edge(segment: Sequence[Sequence[float]], block: str) -> str:
     )
 
 
-def pulled_edge(
-    segment: Sequence[Sequence[float]], traction: Sequence[float], block: str = ""
-) -> str:
+def pulled_edge(segment: Sequence[Sequence[float]], traction: Sequence[float]) -> str:
     """Return a traction (Pa) along an edge."""
-    where = f'block = "{block}"\n' if block else ""
-    return (
-        f'[[loads]]\nname = "pull"\nkind = "edge"\nsegment = {segment}\n{where}'
-        f"traction = {traction}\n"
-    )
+    return f'[[loads]]\nname = "pull"\nkind = "edge"\nsegment = {segment}\ntraction = {traction}\n'
 
 
 def monitor(name: str, point: Sequence[float], block: str) -> str:
