@@ -57,10 +57,10 @@ class CrackGrowth(GrowingCracks):
     def energy_freed(self, booked: float, stored: float) -> float:
         """See `GrowingCracks.energy_freed`; with the last piece where it left no tip."""
         ended = self.parted or not len(self._measured.tip)
-        if not ended or not len(self._path.stations):
+        if not ended or not len(self._path.equilibria):
             return booked
         # The energy that the last cut released by itself is booked already.
-        let_go = float(self._path.stations[-1, 2]) - stored
+        let_go = float(self._path.equilibria[-1, 2]) - stored
         short = self._short if self.parted else None
         return booked - let_go + self._path.to_the_end(self._length, short)
 
@@ -77,9 +77,9 @@ class CrackGrowth(GrowingCracks):
 
     def carried(self) -> tuple[Any, ...]:
         """See `GrowingCracks.carried`; with the growth path at the toughness."""
-        return (*super().carried(), self._path.stations, self._path.jumped, self.parted)
+        return (*super().carried(), self._path.equilibria, self._path.jumped, self.parted)
 
     def carry(self, carried: tuple[Any, ...]) -> None:
-        *sofar, stations, jumped, parted = carried
+        *sofar, equilibria, jumped, parted = carried
         super().carry(tuple(sofar))
-        self._path, self.parted = GrowthPath(np.asarray(stations), jumped), parted
+        self._path, self.parted = GrowthPath(np.asarray(equilibria), jumped), parted

@@ -29,24 +29,25 @@ class GrowthPath:
 
     Attributes
     ----------
-    stations
+    equilibria
         (n, 3): growth (m), load factor, and stored energy (J) of each equilibrium.
     jumped
         Load factor and stored energy (J) under which a crack nucleated; None where none did.
     """
 
-    stations: Floats = field(default_factory=lambda: np.zeros((0, 3)))
+    equilibria: Floats = field(default_factory=lambda: np.zeros((0, 3)))
     jumped: tuple[float, float] | None = None
 
     def on(self, length: float, factor: float, stored: float) -> "GrowthPath":
         """Return the path with one more equilibrium."""
-        return replace(self, stations=np.append(self.stations, [[length, factor, stored]], axis=0))
+        found = np.append(self.equilibria, [[length, factor, stored]], axis=0)
+        return replace(self, equilibria=found)
 
     def begun_anew(self) -> "GrowthPath":
         """Return the path that starts anew as a crack nucleates under the last load."""
-        if not len(self.stations):
+        if not len(self.equilibria):
             return self
-        _, factor, stored = self.stations[-1].tolist()
+        _, factor, stored = self.equilibria[-1].tolist()
         return GrowthPath(jumped=(factor, stored))
 
     def beyond_secant(self, end: float | None = None) -> float:
@@ -56,7 +57,7 @@ class GrowthPath:
         the ligament, and the cubics are in its logarithm. Intervals near which the load factor
         changes its sign count with their secant.
         """
-        if len(self.stations) < 2:
+        if len(self.equilibria) < 2:
             return self._beyond_jump
         beyond = self._freed(end) - self._secants
         return float(beyond[self._one_sign].sum()) + self._beyond_jump
@@ -69,7 +70,7 @@ class GrowthPath:
         before is corrected for the known ``end``; zero where the factor falls more slowly than the
         square root of the ligament. With None the crack ends on a hole or on a bonded body.
         """
-        length, factor, _ = self.stations.T
+        length, factor, _ = self.equilibria.T
         left = end - length
         if len(left) < 2:
             return 0.0
@@ -77,22 +78,22 @@ class GrowthPath:
             return float(self._freed(None)[-1] * left[-1] / (length[-1] - length[-2]))
         if not 0 < factor[-1] / factor[-2] < np.sqrt(left[-1] / left[-2]):
             return 0.0
-        known = replace(self, stations=self.stations[: max(2, int((left >= short).sum()))])
-        last = known.stations[-2:, 0]
+        known = replace(self, equilibria=self.equilibria[: max(2, int((left >= short).sum()))])
+        last = known.equilibria[-2:, 0]
         rest = known._freed(end)[-1] * (end - last[1]) / (last[1] - last[0])
         found = known._secants.sum() + known.beyond_secant(end) + rest
         return float(found - self._secants.sum() - self.beyond_secant())
 
     def _freed(self, end: float | None) -> Floats:
         """Energy (n - 1,) freed in each interval at the toughness (J)."""
-        length, factor, stored = self.stations.T
+        length, factor, stored = self.equilibria.T
         nearly = np.exp(-2 * self._between(_place(length, end), np.log(np.abs(factor)), end))
         return np.asarray(np.diff(stored / factor**2) / (nearly @ WEIGHTS / 2))
 
     @property
     def _secants(self) -> Floats:
         """Energy (n - 1,) freed in each interval along the secant (J)."""
-        _, factor, stored = self.stations.T
+        _, factor, stored = self.equilibria.T
         return np.asarray(np.diff(stored / factor**2) * factor[1:] * factor[:-1])
 
     @property
@@ -100,29 +101,29 @@ class GrowthPath:
         """Energy (J) in excess of the secant of a crack that nucleates under the last load."""
         if (
             self.jumped is None
-            or not len(self.stations)
-            or self.jumped[0] * self.stations[0, 1] <= 0
+            or not len(self.equilibria)
+            or self.jumped[0] * self.equilibria[0, 1] <= 0
         ):
             return 0.0
-        (before, held), (_, factor, stored) = self.jumped, self.stations[0].tolist()
+        (before, held), (_, factor, stored) = self.jumped, self.equilibria[0].tolist()
         return float((stored / factor**2 - held / before**2) * before * (before - factor))
 
     @cached_property
     def _window(self) -> Ints:
         """Equilibria (n - 1, m) through which the polynomial of each interval goes."""
-        n = len(self.stations)
+        n = len(self.equilibria)
         m = min(n, NODES)
         first = np.clip(np.arange(n - 1) - 1, 0, n - m)
         return np.asarray(first[:, None] + np.arange(m))
 
     @cached_property
     def _one_sign(self) -> Bools:
-        sign = np.sign(self.stations[self._window, 1])
+        sign = np.sign(self.equilibria[self._window, 1])
         return np.asarray((sign == sign[:, :1]).all(axis=1))
 
     def _between(self, x: Floats, y: Floats, end: float | None) -> Floats:
         """Values (n - 1, g) at the Gauss points of each interval by Lagrange interpolation."""
-        length = self.stations[:, 0]
+        length = self.equilibria[:, 0]
         where = _place(length[:-1, None] + (1 + POINTS) / 2 * np.diff(length)[:, None], end)
         nodes = x[self._window]
         m = nodes.shape[1]

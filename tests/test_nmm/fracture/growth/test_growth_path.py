@@ -7,7 +7,7 @@ from nmm.fracture.growth.growth_path import GrowthPath
 
 
 def passed(length, factor, stored):
-    """Return a path through stations."""
+    """Return a path through equilibria."""
     path = GrowthPath()
     for station in zip(length, factor, stored, strict=True):
         path = path.on(*station)
@@ -16,7 +16,7 @@ def passed(length, factor, stored):
 
 def along_secants(path):
     """Return what chords say of a path (J)."""
-    _, factor, stored = path.stations.T
+    _, factor, stored = path.equilibria.T
     return float(np.sum(np.diff(stored / factor**2) * factor[1:] * factor[:-1]))
 
 
