@@ -232,16 +232,6 @@ class Polygons:
         return area, np.stack([sx, sy], axis=1) / 6.0
 
 
-def areas(polygons: Polygons) -> Floats:
-    """Area (N,) of each polygon, holes subtracted whatever the sense of the rings."""
-    return polygons.areas
-
-
-def centroids(polygons: Polygons) -> Floats:
-    """Centroid (N, 2) of each polygon; the mean vertex where the area is zero."""
-    return polygons.centroids
-
-
 def diameters(polygons: Polygons) -> Floats:
     """Diagonal (N,) of the bounding box of each polygon."""
     if not len(polygons):

@@ -9,7 +9,7 @@ from covers.approximation.rigid_modes import rigid_modes, stretch_modes
 from covers.cutting.boundary import ring_edges
 from covers.local_functions.polynomials import Kinds, LocalFunctions
 from integration.arrays import Ints
-from integration.polygons import Polygons, areas, centroids, diameters
+from integration.polygons import Polygons, diameters
 
 
 def block_manifold(polygons: Polygons, regions: Ints, functions: LocalFunctions) -> Manifold:
@@ -28,7 +28,7 @@ def block_manifold(polygons: Polygons, regions: Ints, functions: LocalFunctions)
     polygons = polygons.oriented()
     n = len(polygons)
     blocks = np.arange(n, dtype=np.int64)
-    centre, size = centroids(polygons), diameters(polygons)
+    centre, size = polygons.centroids, diameters(polygons)
     length = np.ones(n) if functions.physical_length else size / 2
     offset = np.arange(n + 1, dtype=np.int64) * functions.n_unknowns
     covers = PhysicalCovers(blocks, blocks, centre, np.eye(2) / length[:, None, None], offset[:-1])
@@ -49,5 +49,5 @@ def block_manifold(polygons: Polygons, regions: Ints, functions: LocalFunctions)
         rigid_modes=rigid_modes(*modes),
         stretch_modes=stretch_modes(*modes),
         body_centroid=centre,
-        body_area=areas(polygons),
+        body_area=polygons.areas,
     )

@@ -9,7 +9,6 @@ from typing import Self
 import numpy as np
 
 from integration.arrays import Floats
-from integration.polygons import centroids
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.constraints.imposition import Imposition, Method
@@ -79,7 +78,7 @@ class ArtificialJoints(TiedInterfaces):
 def _spring(model: Model, interface: Interface, stiffness: float) -> Floats:
     """Springs (m,) in N/m."""
     a, b = (side.elements for side in interface.sides)
-    middle = centroids(model.manifold.elements)
+    middle = model.manifold.elements.centroids
     assert interface.first.normal is not None
     apart = np.abs(np.sum((middle[a] - middle[b]) * interface.first.normal, axis=1))
     modulus = np.sqrt(model.modulus[a] * model.modulus[b])

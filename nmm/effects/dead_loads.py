@@ -6,7 +6,6 @@ from functools import cached_property
 import numpy as np
 
 from integration.arrays import Floats
-from integration.polygons import centroids
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 
@@ -51,7 +50,7 @@ class DeadLoad:
     def _lever(self) -> Floats | None:
         """(B, 2, 2) sum of force times arm of each body (N m); None where it is zero for all."""
         manifold = self.model.manifold
-        arm = centroids(manifold.elements) - manifold.body_centroid[manifold.element_body]
+        arm = manifold.elements.centroids - manifold.body_centroid[manifold.element_body]
         found = np.zeros((manifold.n_bodies, 2, 2))
         for i, j in np.ndindex(2, 2):
             found[:, i, j] = self._of_bodies(self._of_elements[:, i] * arm[:, j])

@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
-from integration.polygons import areas
 from nmm.assembly.momenta import whole_momentum
 from nmm.assembly.motion import rigid_rates
 
@@ -48,7 +47,7 @@ def energy_gain(run: "Run") -> float:
 def masses(run: "Run") -> Floats:
     """Mass (B,) of the bodies (kg), one element each."""
     model = run.stepper.model
-    return np.asarray(areas(model.manifold.elements) * model.density * model.thickness)
+    return np.asarray(model.manifold.elements.areas * model.density * model.thickness)
 
 
 def joint_force(run: "Run", point: Floats, normal: Floats) -> Floats:
@@ -65,12 +64,12 @@ def joint_force(run: "Run", point: Floats, normal: Floats) -> Floats:
 
 def current_areas(run: "Run") -> Floats:
     """Area (E,) of the elements at the end (m2)."""
-    return areas(run.manifold.elements.with_points(run.stepper.place(run.state)))
+    return run.manifold.elements.with_points(run.stepper.place(run.state)).areas
 
 
 def mean_stress(run: "Run") -> Floats:
     """Stress (3,) at the end, averaged over all elements (Pa)."""
-    return np.asarray(np.average(run.stress, axis=0, weights=areas(run.manifold.elements)))
+    return np.asarray(np.average(run.stress, axis=0, weights=run.manifold.elements.areas))
 
 
 def converged(run: "Run") -> bool:

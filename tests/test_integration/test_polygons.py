@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import shapely
 
-from integration.polygons import Polygons, areas, centroids, diameters
+from integration.polygons import Polygons, diameters
 
 
 def same(a: Polygons, b: Polygons) -> bool:
@@ -51,9 +51,9 @@ def test_shapely_and_back_keeps_every_vertex(assorted):
 def test_area_and_centroid_agree_with_geos(assorted):
     shapes = assorted.to_shapely()[:4]
     chosen = assorted.take(range(4))
-    np.testing.assert_allclose(areas(chosen), shapely.area(shapes), rtol=1e-15)
+    np.testing.assert_allclose(chosen.areas, shapely.area(shapes), rtol=1e-15)
     expected = shapely.get_coordinates(shapely.centroid(shapes))
-    np.testing.assert_allclose(centroids(chosen), expected, rtol=1e-14)
+    np.testing.assert_allclose(chosen.centroids, expected, rtol=1e-14)
 
 
 def test_diameter_is_the_diagonal_of_the_bounding_box(holed):
@@ -97,8 +97,8 @@ def test_moved_points_keep_the_topology_and_renew_the_area(holed):
 def test_no_polygons_have_empty_properties(assorted):
     none = assorted.take([])
     assert len(none) == len(Polygons.from_rings([])) == len(Polygons.concatenate([])) == 0
-    assert areas(none).shape == diameters(none).shape == none.to_shapely().shape == (0,)
-    assert centroids(none).shape == (0, 2)
+    assert none.areas.shape == diameters(none).shape == none.to_shapely().shape == (0,)
+    assert none.centroids.shape == (0, 2)
     assert len(Polygons.from_shapely([])) == 0
 
 
@@ -113,6 +113,6 @@ def test_centroid_of_zero_area_is_the_mean_vertex():
 
 def test_shared_area_and_centroid_cannot_be_overwritten(holed):
     with pytest.raises(ValueError, match="read-only"):
-        areas(holed)[0] = 1.0
+        holed.areas[0] = 1.0
     with pytest.raises(ValueError, match="read-only"):
-        centroids(holed)[0] = 1.0
+        holed.centroids[0] = 1.0

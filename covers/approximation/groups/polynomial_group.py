@@ -8,7 +8,7 @@ import numpy as np
 from covers.approximation.groups.element_group import ElementGroup, one_cover
 from integration.arrays import Floats, Ints
 from integration.monomials import count, differentiate, evaluate, exponents
-from integration.polygons import Polygons, areas
+from integration.polygons import Polygons
 from integration.rules import PointRule, polygon_rule
 
 # Points evaluated at once.
@@ -102,7 +102,7 @@ class PolynomialGroup(ElementGroup):
         own = polygons.take(self.elements)
         if self.degree > 1:
             return polygon_rule(own, 2 * (self.degree - 1))
-        return PointRule(own.centroids, areas(own), np.arange(len(own)))
+        return PointRule(own.centroids, own.areas, np.arange(len(own)))
 
     @cached_property
     def _derivatives(self) -> tuple[Floats, Floats]:

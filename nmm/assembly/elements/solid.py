@@ -12,7 +12,6 @@ from covers.approximation.manifold import Manifold
 from covers.cutting.cut_cells import CutCells
 from integration.arrays import Floats
 from integration.contraction import contract
-from integration.polygons import areas
 from nmm.assembly.elements import element_matrices
 from nmm.assembly.elements.element_sums import ElementMatrices, summed_matrix, summed_vector
 from nmm.assembly.elements.lumping import check_positive
@@ -116,7 +115,7 @@ class Solid:
     @cached_property
     def element_area(self) -> Floats:
         """(E,) areas of the elements in the reference place (m2)."""
-        return areas(self.manifold.elements)
+        return self.manifold.elements.areas
 
     @cached_property
     def _strain_rows(self) -> list[Floats]:

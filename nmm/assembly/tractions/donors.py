@@ -13,7 +13,6 @@ import numpy as np
 
 from covers.approximation.ghost import neighbours
 from integration.arrays import Floats, Ints
-from integration.polygons import centroids
 from nmm.assembly.model import Model
 from nmm.assembly.motion import Frames
 from nmm.assembly.stress_points import StressAt
@@ -104,7 +103,7 @@ def _largest_about(model: Model, elements: Ints) -> Ints:
     first, second = neighbours(manifold, elements)
     one, two = np.concatenate([first, second]), np.concatenate([second, first])
     use = manifold.extends[two] & (manifold.element_region[one] == manifold.element_region[two])
-    one, two, middle = one[use], two[use], centroids(manifold.elements)
+    one, two, middle = one[use], two[use], manifold.elements.centroids
     away = np.hypot(*(middle[one] - middle[two]).T)
     rising = np.lexsort((-away, np.round(np.log(area[two] / area.max()), ALIKE)))
     best = np.arange(len(area))

@@ -15,7 +15,6 @@ from scipy.sparse import csr_array
 
 from covers.approximation.rows import row_matrix
 from integration.arrays import Bools, Floats, Ints
-from integration.polygons import centroids
 from nmm.assembly.model import Model
 from nmm.assembly.motion import Frames
 from nmm.assembly.stress_points import StressAt
@@ -161,7 +160,7 @@ def _reach(model: Model, elements: Ints, points: ContactPoints, area: Floats) ->
     At least half of the mean over all joints of an element: the middle of a hollow one may lie
     behind an edge.
     """
-    middle = centroids(model.manifold.elements)
+    middle = model.manifold.elements.centroids
     place = model.manifold.boundary.at(points.edge_a, points.parameter_a)
     far = np.abs(np.einsum("ij,ij->i", middle[elements] - place, points.normal))
     whole = np.bincount(elements, area)

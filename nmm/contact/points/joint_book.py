@@ -9,7 +9,6 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from integration.contraction import contract
-from integration.polygons import centroids
 from nmm.assembly.model import Model
 from nmm.contact.detection.joints import Joints, find_joints, joint_ends, joint_points
 from nmm.contact.detection.narrow_phase import Contacts
@@ -228,7 +227,7 @@ def _distance(model: Model, joints: Joints) -> Floats:
     joint; where moduli are equal to the largest, the distance of the middles.
     """
     manifold, modulus = model.manifold, model.modulus
-    middle = centroids(manifold.elements)
+    middle = manifold.elements.centroids
     a, b = (manifold.boundary.element[edge] for edge in (joints.edge_a, joints.edge_b))
     far_a, far_b, apart = (
         np.abs(contract("ij,ij->i", offset, joints.normal))

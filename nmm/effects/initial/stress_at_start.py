@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
-from integration.polygons import areas, centroids
 from integration.rules import polygon_rule
 from nmm.assembly.model import Model
 from nmm.assembly.stress_points import StressPoints
@@ -44,7 +43,7 @@ class StressAtStart:
     def declared(cls, setup: "Setup") -> Self:
         """Return the stress of ``[[initial_stresses]]``; later tables overwrite earlier ones."""
         region = setup.model.manifold.element_region
-        height = centroids(setup.model.manifold.elements)[:, 1]
+        height = setup.model.manifold.elements.centroids[:, 1]
         mean, slope = np.zeros((len(region), 4)), np.zeros((len(region), 4))
         mean[:, 3] = np.nan
         for number, item in enumerate(setup.scene.initial_stresses):  # a handful of tables
@@ -62,7 +61,7 @@ class StressAtStart:
 
     def at(self, model: Model, elements: Ints, points: Floats) -> Floats:
         """Return the stress (m, 4) at reference points (m, 2) of elements (m,) (Pa)."""
-        above = points[:, 1] - centroids(model.manifold.elements)[elements, 1]
+        above = points[:, 1] - model.manifold.elements.centroids[elements, 1]
         return np.asarray(self.mean[elements] + above[:, None] * self.slope[elements])
 
     def within(self, model: Model) -> Callable[[Ints, Floats], Floats]:
@@ -81,12 +80,12 @@ class StressAtStart:
 
     def energy(self, model: Model) -> float:
         """Return its elastic energy (J), ``1/2 int sigma : D^-1 sigma``."""
-        area = areas(model.manifold.elements)
+        area = model.manifold.elements.areas
         found = float(_density(model, self.mean) @ area)
         if not self.even:
             rule, middle = (
                 polygon_rule(model.manifold.elements, 2),
-                centroids(model.manifold.elements),
+                model.manifold.elements.centroids,
             )
             square = rule.weights * (rule.points[:, 1] - middle[rule.owner, 1]) ** 2
             found += float(_density(model, self.slope) @ np.bincount(rule.owner, square, len(area)))

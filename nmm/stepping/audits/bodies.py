@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
-from integration.polygons import areas
 from nmm.assembly.momenta import momenta_about, own_momenta, rigid_masses
 from nmm.assembly.motion import State
 from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings, percent
@@ -40,8 +39,8 @@ def bodies(run: EndedRun) -> Findings:
             mild=contact.laws.stiff,
         )
     if run.formulation.rotation.update == "linear":
-        before = float(areas(model.manifold.elements.with_points(run.stepper.reference)).sum())
-        share = abs(float(areas(model.manifold.elements).sum()) / before - 1)
+        before = float(model.manifold.elements.with_points(run.stepper.reference).areas.sum())
+        share = abs(float(model.manifold.elements.areas.sum()) / before - 1)
         yield AuditFinding(
             "mass",
             share,

@@ -9,7 +9,7 @@ from covers.approximation.block_manifold import block_manifold
 from covers.approximation.uncut import uncut
 from covers.local_functions.polynomials import LocalFunctions, Monomials, RigidStrain
 from integration.arrays import Floats
-from integration.polygons import Polygons, areas
+from integration.polygons import Polygons
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State, initial_state, move, vertex_points
 from nmm.materials.elastic import Elastic
@@ -62,7 +62,7 @@ def test_strain_before_a_turn_is_carried_with_the_body() -> None:
     assert np.ptp(corners[:, 1]) == pytest.approx(2.02, rel=1e-13)
     assert np.ptp(corners[:, 0]) == pytest.approx(1.0, rel=1e-13)
     polygon = one.manifold.elements.with_points(corners)
-    assert areas(polygon)[0] == pytest.approx(2.02, rel=1e-13)
+    assert polygon.areas[0] == pytest.approx(2.02, rel=1e-13)
 
 
 def test_translation_keeps_its_direction_in_space_while_the_body_turns() -> None:

@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 
 from integration.arrays import Floats
-from integration.polygons import centroids
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase
 from nmm.verification.problems.staged.columns import ends
@@ -99,7 +98,7 @@ class ReleasedTunnel(SceneCase):
         final = (1 - pressure / PRESSURE) * free
         elements = run.manifold.elements
         ring = run.manifold.element_region == 2
-        x, y = centroids(elements)[ring].T
+        x, y = elements.centroids[ring].T
         c, s = x / np.hypot(x, y), y / np.hypot(x, y)
         xx, yy, xy = run.stress[ring].T
         hoop = xx * s**2 + yy * c**2 - 2 * xy * s * c

@@ -5,7 +5,6 @@ import pytest
 
 import nmm
 from covers.approximation.ghost import neighbours
-from integration.polygons import centroids
 from nmm.assembly.tractions.donors import donors
 from nmm.stepping.prepare import prepare
 
@@ -58,7 +57,7 @@ def test_of_whole_cells_beside_a_sliver_the_nearest_is_its_donor():
     for unit in (1.0, 1e3):
         scene = cracked(unit)
         model = prepare(scene, scene.formulation).stepper.model
-        area, middle = model.element_area, centroids(model.manifold.elements)
+        area, middle = model.element_area, model.manifold.elements.centroids
         first, second = neighbours(model.manifold, np.arange(len(area)))
         whole, chosen = area > (1 - 1e-9) * area.max(), 0
         for sliver in np.flatnonzero(area < 0.3 * area.max()):
