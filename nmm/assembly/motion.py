@@ -1,4 +1,4 @@
-"""Where material is now: a frame a body, and a small deformation carried in it.
+"""The place of the material: a frame for each body, and a small deformation in it.
 
 A point ``X`` of body ``b`` stands at ``x = c_b + R(theta_b) (X - Xc_b + T(X) q)``. Step unknowns
 are increments in the body's axes, ``delta x = R(theta_b) T(X) d``: the covers are carried with the
@@ -50,7 +50,7 @@ class Frames:
 
     @MadeOnce
     def turn(self) -> Floats:
-        """(B, 2, 2) the rotation less one, to its own rounding."""
+        """(B, 2, 2) the rotation minus the identity, without cancellation."""
         found = np.empty((len(self.angle), 2, 2))
         found[:, 0, 0] = found[:, 1, 1] = -2 * np.sin(self.angle / 2) ** 2
         found[:, 1, 0] = np.sin(self.angle)
@@ -98,7 +98,7 @@ class State:
 
 
 def rotation_matrices(angle: Floats) -> Floats:
-    """Return the matrices (..., 2, 2) that turn by ``angle`` (...,) counter-clockwise."""
+    """Return the matrices (..., 2, 2) of rotations by ``angle`` (...,), counter-clockwise."""
     c, s = np.cos(angle), np.sin(angle)
     found = np.empty((*np.shape(angle), 2, 2))
     found[..., 0, 0], found[..., 0, 1] = c, -s
@@ -107,13 +107,15 @@ def rotation_matrices(angle: Floats) -> Floats:
 
 
 def initial_frames(manifold: Manifold) -> Frames:
-    """Return the frames of bodies as they were laid."""
-    centre = manifold.body_centroid.copy()  # free to write, as all later ones: compiled code is one
+    """Return the frames of bodies in the reference configuration."""
+    centre = (
+        manifold.body_centroid.copy()
+    )  # writable, as all later ones are: compiled code has one version for both
     return Frames(centre, np.zeros(manifold.n_bodies), way=np.zeros_like(centre))
 
 
 def initial_state(manifold: Manifold) -> State:
-    """Return the state of rest in the reference place."""
+    """Return the state at rest in the reference configuration."""
     n = manifold.n_unknowns
     return State(0.0, 0.0, initial_frames(manifold), np.zeros(n), np.zeros(n), np.zeros(n))
 
@@ -155,12 +157,12 @@ class MaterialPoints:
         return frames.centre[self.body] + frames.to_global(self.body, local)
 
     def way(self, before: State, after: State) -> Floats:
-        """Return the way (m, 2) from one state to another (m)."""
+        """Return the displacement (m, 2) from one state to another (m)."""
         start = self.place(before.frames, before.deformation)
         return self.place(after.frames, after.deformation) - start
 
     def moved(self, frames: Frames, deformation: Floats) -> Floats:
-        """Return the way (m, 2) from the reference place, to the rounding of the way itself."""
+        """Return the displacement (m, 2) from the reference place, without cancellation."""
         assert frames.way is not None
         local = self.rows.apply(deformation)
         if frames.tilt is not None:
@@ -176,7 +178,7 @@ class MaterialPoints:
         return self.rows.along(frames.to_body(self.body, directions))
 
     def push(self, state: State, forces: Floats) -> Floats:
-        """Return what forces (m, 2) in global axes (N) do on the unknowns (n,)."""
+        """Return the load vector (n,) of forces (m, 2) in global axes (N)."""
         local = state.frames.to_body(self.body, forces)
         return self.rows.spread(local, len(state.deformation))
 
@@ -190,7 +192,7 @@ class MaterialPoints:
 
 
 def material_points(manifold: Manifold, elements: Ints, points: Floats) -> MaterialPoints:
-    """Return reference points (m, 2) in elements (m,) as points that can be followed."""
+    """Return reference points (m, 2) in elements (m,) as material points."""
     body = manifold.element_body[elements]
     return MaterialPoints(
         body, points - manifold.body_centroid[body], manifold.rows(elements, points)
@@ -198,13 +200,13 @@ def material_points(manifold: Manifold, elements: Ints, points: Floats) -> Mater
 
 
 def vertex_points(manifold: Manifold) -> MaterialPoints:
-    """Return the elements' vertices (P) as points that can be followed."""
+    """Return the elements' vertices (P) as material points."""
     elements = manifold.elements
     return material_points(manifold, elements.polygon_of_point, elements.points)
 
 
 def move(model: Model, state: State, increment: Floats) -> State:
-    """Return the state after the step unknowns ``increment``: rigid part exact, rest carried.
+    """Return the state after the step unknowns ``increment``, with the rotation exact.
 
     The mean translation moves the frames, the mean rotation turns them exactly, and what remains is
     added to the deformation (for a block ``x' = c + u0 + R(r0)(I + eps)(x - c)``). Of the velocity
@@ -220,7 +222,7 @@ def move(model: Model, state: State, increment: Floats) -> State:
         frames.tilt,
         None if frames.way is None else frames.way + shift,
     )
-    # What the sum of angles has taken up, rounded: a velocity must not drift against its axes.
+    # The rounded increment of the angle: a velocity must not drift against its axes.
     turn = rotation_matrices(moved.angle - frames.angle)
     return with_parts(
         state,
@@ -232,7 +234,7 @@ def move(model: Model, state: State, increment: Floats) -> State:
 
 
 def middle(before: State, after: State) -> State:
-    """Return the place half way between two states."""
+    """Return the midpoint of two states."""
     frames = Frames(
         (before.frames.centre + after.frames.centre) / 2,
         (before.frames.angle + after.frames.angle) / 2,
@@ -260,7 +262,7 @@ def _turn_translation(model: Model, rate: Floats, turn: Floats) -> Floats:
 
 
 def translate(model: Model, state: State, increment: Floats) -> State:
-    """Return the state after the step unknowns ``increment``: frames move along, and never turn.
+    """Return the state after the step unknowns ``increment``: frames translate and never turn.
 
     All that is not mean translation, the whole rotation among it, is added to the deformation.
     """

@@ -1,4 +1,4 @@
-"""What becomes of bodies in a step of contact, compiled: `motion.move` to the last digit."""
+"""The motion of bodies in a step of contact, compiled: `motion.move` to the last digit."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -37,7 +37,7 @@ def move(model: "Model", state: "State", increment: Floats) -> "State":
 
 
 def entries(matrix: csr_array | csc_array) -> Entries:
-    """Return what a matrix holds."""
+    """Return the arrays of a sparse matrix."""
     return matrix.data, matrix.indices, matrix.indptr
 
 
@@ -66,7 +66,7 @@ def _moved(
         now = new[2][b]
         _rotate(turned[b], np.cos(now), np.sin(now))
         _rotate(less[b], -2 * np.sin(now / 2) ** 2, np.sin(now))
-        # What the sum of angles has taken up, rounded.
+        # The rounded increment of the angle.
         _rotate(turn[b], np.cos(now - angle[b]), np.sin(now - angle[b]))
     whole = deformation + increment - spread(modes, rigid, len(increment))
     rest = (
@@ -79,7 +79,7 @@ def _moved(
 
 @compiled
 def _rotate(matrix: Floats, along: float, across: float) -> None:
-    """Put a turn in a matrix (2, 2)."""
+    """Fill a rotation matrix (2, 2)."""
     matrix[0, 0], matrix[0, 1] = along, -across
     matrix[1, 0], matrix[1, 1] = across, along
 

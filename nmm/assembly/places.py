@@ -1,4 +1,4 @@
-"""From the places a scene names (a point, a segment, a block) to points of the material."""
+"""Points of the material at the places that a scene names: a point, a segment, a block."""
 
 from dataclasses import dataclass
 
@@ -17,7 +17,7 @@ NEAR = 1e-9
 
 @dataclass(frozen=True)
 class Place:
-    """Points of the material with the share each has.
+    """Points of the material, and the weight of each.
 
     Attributes
     ----------

@@ -36,7 +36,7 @@ def test_130_blocks_fail_in_the_stated_range_whatever_the_increment(beams: Modul
 
 
 @pytest.mark.parametrize("seed", [1, 3])
-def test_tractions_hardly_hang_on_the_penalty(beams: ModuleType, seed: int, monkeypatch) -> None:
+def test_tractions_hardly_depend_on_the_penalty(beams: ModuleType, seed: int, monkeypatch) -> None:
     text = (SCRIPT.parent / "kitoh_130.toml").read_text().replace("seed = 1\n", f"seed = {seed}\n")
     text = text.replace('until = "failure"', "until = 1").replace("maximum_factor", "# ")
     first = []

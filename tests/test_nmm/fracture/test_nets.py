@@ -71,7 +71,7 @@ SCENES = {
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
-def test_path_and_load_hang_on_no_turn_or_shift_of_the_net(name: str) -> None:
+def test_path_and_load_depend_on_no_turn_or_shift_of_the_net(name: str) -> None:
     """Twenty nets, pieces of half a cell; half a cell is asked for."""
     draw, nets = np.random.default_rng(7), SCENES[name]
     scene = parse_scene(nets.scene)
