@@ -26,7 +26,6 @@ from nmm.stepping.drive.changes import AcceptedState, asked, with_events
 from nmm.stepping.drive.settling import rounding
 from nmm.stepping.drive.until_verdict import until_verdict
 from nmm.stepping.drive.verdict import RunVerdict
-from nmm.stepping.reports.energies import stored
 from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
@@ -256,10 +255,14 @@ class _Following:
         attempt = replace(attempt, state=later)
         anew = jump and at.changed
         if (jump or self.control.by_load) and attempt.solved is not None:
-            lost = self._released(at.state, later)
+            solved = replace(attempt.solved, between=0.0)
+            plan, model = self.stepper.plan, self.stepper.model
+            within = replace(attempt, solved=solved)
+            # Motion in which bonds broke.
+            lost = recorder.ledger.released(plan, model, at.state, within)
             if anew:  # where new faces leave more stored, functions of a tip went: no loss
-                lost = max(lost, attempt.solved.loss, 0.0)
-            attempt = replace(attempt, solved=replace(attempt.solved, loss=lost, between=0.0))
+                lost = max(lost, solved.loss, 0.0)
+            attempt = replace(attempt, solved=replace(solved, loss=lost))
         elif attempt.solved is not None:
             lost = attempt.solved.loss + at.shed
             attempt = replace(attempt, solved=replace(attempt.solved, loss=lost))
@@ -278,10 +281,3 @@ class _Following:
             peak=max(at.peak, factor),
             shed=0.0,
         )
-
-    def _released(self, before: State, after: State) -> float:
-        """Energy (J) that is neither stored nor work: motion in which bonds broke."""
-        plan, model, ledger = self.stepper.plan, self.stepper.model, self.recorder.ledger
-        first = sum(ledger.energies.values()) if ledger.steps else 0.0
-        taken = sum(stored(plan, model, after).values()) + sum(plan.losses(before, after).values())
-        return plan.work(before, after) - taken + first

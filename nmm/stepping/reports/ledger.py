@@ -109,7 +109,7 @@ class Ledger:
         dissipated = model.dissipated(before, after)
         found = with_parts(
             self,
-            work=self._worked(plan, before, attempt),
+            work=self.worked(plan, before, attempt),
             friction_loss=self.friction_loss + loss,
             friction_first=self.friction_first if self.steps else loss,
             material_loss=self.material_loss + dissipated,
@@ -130,7 +130,7 @@ class Ledger:
             found = found._lost_in_time(attempt.booked, earlier, loss)
         return found.weighed(after.time, audited=attempt.booked is not None)
 
-    def _worked(self, plan: "Plan", before: State, attempt: Attempt) -> float:
+    def worked(self, plan: "Plan", before: State, attempt: Attempt) -> float:
         """Return the work (J) of all steps and of an accepted one.
 
         Along paths it counts what loads do between its ends. The step after a change begins out of
@@ -146,6 +146,14 @@ class Ledger:
         if attempt.solved is not None and not self.settling:
             work += attempt.solved.between
         return work + (0.0 if attempt.booked is None else attempt.booked.late)
+
+    def released(self, plan: "Plan", model: "Model", before: State, attempt: Attempt) -> float:
+        """Return the energy (J) of a step that is neither stored nor taken, and was no motion."""
+        after = attempt.state
+        first = untouched(plan, model, before)
+        had = sum(self.energies.values()) if self.steps else self._stored_first(plan, before, first)
+        has = sum(stored(plan, model, after).values()) + sum(plan.losses(before, after).values())
+        return self.worked(plan, before, attempt) - self.work - has + had
 
     def _stored_first(self, plan: "Plan", before: State, earlier: Mapping[str, float]) -> float:
         """Return the energy (J) at the start of all: ``earlier`` is that at the start of a step."""
