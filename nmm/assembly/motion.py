@@ -108,9 +108,8 @@ def rotation_matrices(angle: Floats) -> Floats:
 
 def initial_frames(manifold: Manifold) -> Frames:
     """Return the frames of bodies in the reference configuration."""
-    centre = (
-        manifold.body_centroid.copy()
-    )  # writable, as all later ones are: compiled code has one version for both
+    # Writable, as all later ones are, so that functions are compiled for one type.
+    centre = manifold.body_centroid.copy()
     return Frames(centre, np.zeros(manifold.n_bodies), way=np.zeros_like(centre))
 
 
