@@ -92,6 +92,8 @@ def _key_of(fault: Fault | str, part: "BaseModel", keys: list[str]) -> list[str]
         for key in keys:
             if fault.value == f'"{getattr(part, key)}"':
                 return [key]
+    elif (key := fault.partition(": ")[0]) in part.model_fields_set:
+        return [key]
     return keys if len(keys) == 1 else []
 
 
@@ -99,7 +101,8 @@ def _placed(fault: Fault | str, place: str) -> Fault | str:
     """Put the place in the file before a fault; what is said there already is not said twice."""
     if isinstance(fault, Fault) and place.endswith(fault.place):
         return replace(fault, place=place)
-    return f"{place}: {fault}"
+    key, said, rest = str(fault).partition(": ")
+    return f"{place}{said}{rest}" if said and place.endswith(f".{key}") else f"{place}: {fault}"
 
 
 def _named(

@@ -365,6 +365,26 @@ def test_softening_in_plane_stress_is_refused_by_line():
         nmm.parse_scene(text)
 
 
+@pytest.mark.parametrize(
+    ("line", "constants"),
+    [
+        (9, 'residual_friction_angle = "40 deg"\nresidual_dilation_angle = "0 deg"'),
+        (10, 'residual_friction_angle = "20 deg"\nresidual_dilation_angle = "21 deg"'),
+        (9, 'dilation_angle = "31 deg"\nresidual_friction_angle = "20 deg"'),
+    ],
+)
+def test_angles_that_rise_are_refused_by_the_line_of_their_key(line, constants):
+    text = (
+        'plane = "strain"\n[materials.m]\nlaw = "mohr_coulomb"\nyoung_modulus = 1e9\n'
+        'poisson_ratio = 0.2\ncohesion = 1e4\nfriction_angle = "30 deg"\nsoftening_energy = 10.0\n'
+        f"{constants}\n"
+        '[[blocks]]\nname = "b"\nmaterial = "m"\nvertices = [[0, 0], [1, 0], [1, 1]]\n'
+    )
+    scene = nmm.parse_scene(text)
+    with pytest.raises(FormulationError, match=rf"scene:{line}: materials.m.*_angle: .*expected"):
+        nmm.run(scene)
+
+
 @pytest.mark.parametrize("degree", [0, 1])
 def test_a_column_that_softens_has_a_failure_load(degree):
     """Its foot yields at ``2 c - w H``, and no part bears more than ``2 c``.
