@@ -35,7 +35,7 @@ def small_holes(setup: "Setup", tips: Ints, growth: float) -> str:
         away = np.hypot(*(cut.boundary.start - middle).T)
         rim = cut.boundary.element[(away <= 0.51 * across) & (cut.boundary.crack < 0)]
         width = float(cut.cell_width[cut.element_cell[rim]].max(initial=0.0))
-        near = np.hypot(*(points - middle).T).min(initial=np.inf) - growth < BESIDE_HOLE * across
+        near = (np.hypot(*(points - middle).T) < growth + BESIDE_HOLE * across).any()
         if near and across < ACROSS * width:
             x, y = middle + setup.origin
             said.append(

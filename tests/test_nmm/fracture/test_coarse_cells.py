@@ -64,3 +64,13 @@ def test_a_hole_of_three_cells_is_right_and_not_told() -> None:
     assert not run.summary.warnings
     # 1.54606 on cells of 0.02, and of 0.02 about both tips in coarser ones.
     assert run.history["fracture:c:end:K_I"][-1] == pytest.approx(1.546, rel=0.01)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_hole_is_no_fault_where_no_crack_has_begun_that_may_grow_without_end() -> None:
+    hole = "holes = [[[0.55, 0], [0.6, 0.05], [0.65, 0], [0.6, -0.05]]]\n"
+    begins = "[fracture.nucleation]\ntensile_strength = 1e12\n"
+    scene = plate(net(0.5, 11.0), 2.0, hole, begins).replace(
+        crack("c", [[-0.5, 0.0], [0.5, 0.0]]), ""
+    )
+    assert not nmm.run(parse_scene(scene)).history["fracture:growth"].any()
