@@ -3,6 +3,7 @@
 import pytest
 
 import nmm
+from nmm.errors import NmmError
 
 STRENGTH, WEIGHT, WIDTH, PULL, MODULUS = 2.5e5, 2000 * 9.81, 0.5, 100.0, 1e10
 EVENTS = '[loading]\nuntil = "failure"\n[loading.control]\ntype = "events"\nfall = 0.1\n'
@@ -10,7 +11,11 @@ STRESSED = '[[initial_stresses]]\nblock = "all"\nstress = [0, 2e4, 0]\n'
 BONDS = {"terms": "", "springs": '[formulation.contact]\nbonds = "spring"\n'}
 
 
-def chain(number: int, more: str) -> nmm.Run:
+SOFTENS = 'law = "linear_softening"\nfracture_energy = 50.0\n'
+LED = EVENTS.replace('"events"', '"dissipation"\nenergy = 1.0')
+
+
+def chain(number: int, more: str, control: str = EVENTS, law: str = "") -> nmm.Run:
     """Return the run of so many blocks of half a square metre below a ceiling."""
     bricks = [
         f'[[blocks]]\nname = "b{n}"\nmaterial = "m"\n'
@@ -28,7 +33,7 @@ def chain(number: int, more: str) -> nmm.Run:
             tensile_strength = {STRENGTH}
             cohesion = 1e9
             friction_angle = "30 deg"
-            {"".join(bricks)}
+            {law}{"".join(bricks)}
             [[supports]]
             name = "ceiling"
             segment = [[0, 0], [0.5, 0]]
@@ -40,7 +45,7 @@ def chain(number: int, more: str) -> nmm.Run:
             traction = [0, {-PULL}]
             [gravity]
             [contact]
-            {EVENTS}{more}""")
+            {control}{more}""")
     )
 
 
@@ -58,3 +63,9 @@ def test_the_highest_joint_breaks_and_nothing_is_lost_before(
     # Of what weight and pull do to a chain that is whole nothing is lost.
     assert abs(lost) < 1e-9 * abs(work)
     assert not run.summary.warnings
+
+
+def test_dissipation_leads_no_path_beside_weight() -> None:
+    """By (lambda f.du - dlambda f.u) / 2 unloading alone would take what weight has done."""
+    with pytest.raises(NmmError, match="gravity act at a load factor of zero: what unloads does"):
+        chain(3, "", LED, SOFTENS)
