@@ -200,9 +200,10 @@ def _weaker(part: Any, factor: float) -> Any:
         if name in given:
             found[name] = atan(tan(given[name]) / factor)
     friction = [found[name] for name in FRICTION if name in found]
-    for name in ("dilation_angle", "residual_dilation_angle"):
-        if name in given:
-            found[name] = min([given[name], *friction])
+    swells = [name for name in ("dilation_angle", "residual_dilation_angle") if name in given]
+    # A dilation that falls stays below the friction of its end, one that stays below both.
+    limits = friction if len(swells) == len(friction) else [min(friction, default=0.0)] * 2
+    found |= {name: min(given[name], most) for name, most in zip(swells, limits, strict=False)}
     return part.model_copy(update=found)
 
 

@@ -7,6 +7,7 @@ import pytest
 
 import nmm
 from nmm.errors import SceneError
+from nmm.model.build import material_law
 from nmm.scene import parse_scene
 from nmm.scene.tables.strength_reduction import StrengthReductionTable
 from nmm.stepping.safety.strength_reduction import FactorTried, bracket, weakened
@@ -129,3 +130,21 @@ def test_leaning_columns_need_the_friction_of_goodman_and_bray():
     # A corner held back from an increment before, with its friction, let them stand at 0.71.
     found = ToppledSlope(45.0).checks("rigid")
     assert all(check.passed for check in found.values()), found
+
+
+def test_friction_that_is_left_is_reduced_with_that_at_first_and_dilation_stays_below():
+    text = (
+        'plane = "strain"\n[materials.m]\nlaw = "mohr_coulomb"\nyoung_modulus = 1e8\n'
+        'poisson_ratio = 0.2\ncohesion = 1e4\nfriction_angle = "30 deg"\n'
+        'dilation_angle = "18 deg"\n'
+        'softening_energy = 100.0\nresidual_cohesion = 2e3\nresidual_friction_angle = "20 deg"\n'
+        'residual_dilation_angle = "12 deg"\n'
+        '[[blocks]]\nname = "b"\nmaterial = "m"\nvertices = [[0, 0], [1, 0], [1, 1]]\n'
+    )
+    found = weakened(nmm.parse_scene(text), 2.0).materials["m"]
+    first, last = np.tan(np.radians([30, 20])) / 2
+    assert np.tan(found.friction_angle) == pytest.approx(first, rel=1e-14)
+    assert np.tan(found.residual_friction_angle) == pytest.approx(last, rel=1e-14)
+    assert found.dilation_angle == pytest.approx(np.arctan(first), rel=1e-14)
+    assert found.residual_dilation_angle == pytest.approx(np.arctan(last), rel=1e-14)
+    assert material_law(found).fall == pytest.approx(0.8)
