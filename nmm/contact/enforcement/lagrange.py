@@ -122,9 +122,8 @@ def _saddle(
     constant = active.sign * np.where(active.sliding, bound, 0.0)
     load = problem.force - problem.normal_rows.T @ pull - problem.tangent_rows.T @ constant
     rhs = np.concatenate([load, -problem.gap[closed], -problem.slip[stuck]])
-    given = problem, pressing, normal_rows, shear_rows
-    x = _refined(linear, _matrix(*given, regular), _matrix(*given, compliance), rhs)
-    size = len(problem.force)
+    size, matrix = len(problem.force), _matrix(problem, pressing, normal_rows, shear_rows, regular)
+    x = _refined(linear, matrix, regular - compliance, rhs)
     normal, shear = pull.copy(), constant.copy()
     normal[closed] = x[size : size + len(closed)]
     shear[closed] -= drag * normal[closed]
@@ -149,12 +148,14 @@ def _matrix(
     return csc_array(block_array(parts))
 
 
-def _refined(linear: LinearSolver, regular: csc_array, exact: csc_array, rhs: Floats) -> Floats:
+def _refined(linear: LinearSolver, regular: csc_array, soft: Floats, rhs: Floats) -> Floats:
+    """Solve with the matrix without the compliance ``soft`` of its last unknowns, the forces."""
     factor = linear.indefinite().factorise(regular)
     x = factor.solve(rhs)
     best, least = x, np.inf
     for _ in range(REFINEMENTS):
-        rest = rhs - exact @ x
+        rest = rhs - regular @ x
+        rest[len(rhs) - len(soft) :] -= soft * x[len(rhs) - len(soft) :]
         size = float(np.linalg.norm(factor.scale * rest))
         if not size < 0.5 * least:
             break
