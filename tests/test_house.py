@@ -13,7 +13,10 @@ import pytest
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from nmm.catalogue import REGISTRIES
 from nmm.model import effects_table
+from nmm.verification.hard.running.registry import HARD
+from nmm.verification.registry import CASES
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -463,3 +466,8 @@ def test_a_foreign_package_of_the_same_name_is_named(tmp_path):
 def test_every_public_name_is_there():
     code = "import nmm\nfor name in nmm.__all__: getattr(nmm, name)"
     modules_after(code)
+
+
+@pytest.mark.parametrize("registry", [*REGISTRIES, CASES, HARD], ids=lambda one: one.kind)
+def test_every_name_of_a_registry_leads_to_its_part(registry):
+    assert all(registry.load(name) for name in registry.table)
