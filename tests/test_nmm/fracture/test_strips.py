@@ -1,0 +1,97 @@
+"""Intensities of many cracks, and of cracks beside other matter, in strips with closed forms."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import pytest
+
+import nmm
+from integration.arrays import Floats
+from nmm.scene.read import parse_scene
+from nmm.verification import text
+from nmm.verification.problems.cracks.crack_scenes import crack, guided, net, pinned, pull
+
+STILL = "[fracture]\ntoughness = 1e12\nincrement = 1.0\n"
+POISSON = 0.3
+STIFF = 1 / (1 - POISSON**2)
+
+
+def intensities(tables: Sequence[str], more: str = "") -> Floats:
+    """Return K_I and K_II (n, 2) of all tips of a body of modulus one in plane strain."""
+    matter = text.material("m", 1.0, POISSON, None)
+    run = nmm.run(parse_scene(text.scene('plane = "strain"', [matter, *tables, STILL + more])))
+    assert not run.summary.warnings
+    fronts = [name.removesuffix(":K_I") for name in run.history if name.endswith(":K_I")]
+    return np.array([[run.history[f"{one}:{k}"][-1] for k in ("K_I", "K_II")] for one in fronts])
+
+
+def driven(name: str, y: float, length: float, fix: str, way: float) -> str:
+    """Table of a horizontal edge that is moved."""
+    edge = f"segment = [[0, {y}], [{length}, {y}]]\nfix = [{fix}]\ndisplacement = [0, {way}]\n"
+    return f'[[supports]]\nname = "{name}"\n{edge}'
+
+
+def test_ten_tips_of_a_row_of_cracks_have_its_intensity() -> None:
+    """sqrt(tan(pi a)) for cracks of 2 a, one a metre (Irwin 1957); rollers stand for all others."""
+    row = [crack(f"c{n}", [[n + 0.2, 0.0], [n + 0.8, 0.0]]) for n in range(5)]
+    found = intensities(
+        [
+            text.block("plate", "m", text.rectangle((0, -1.5), (5, 1.5))),
+            *row,
+            pull("up", [[0.0, 1.5], [5.0, 1.5]], [0.0, 1.0]),
+            pull("down", [[0.0, -1.5], [5.0, -1.5]], [0.0, -1.0]),
+            guided("left", [[0.0, -1.5], [0.0, 1.5]], "x"),
+            guided("right", [[5.0, -1.5], [5.0, 1.5]], "x"),
+            pinned("foot", [0.0, -1.5], "y"),
+            net(0.1, 11.0),
+        ]
+    )
+    assert found.shape == (10, 2)
+    # Cells of a third of half a crack; 0.06 % on cells of 0.08.
+    assert found / np.sqrt(np.tan(0.3 * np.pi)) == pytest.approx(np.tile([1, 0], (10, 1)), abs=3e-3)
+
+
+def test_four_parallel_cracks_free_what_a_strip_stores() -> None:
+    """Long cracks one above the other: each frees the energy of a metre of what is ahead of it."""
+    cracks = [crack(f"c{n}", [[-0.1, n + 0.5], [3.0, n + 0.5]]) for n in range(4)]
+    found = intensities(
+        [
+            text.block("strip", "m", text.rectangle((0, 0), (6, 4))),
+            *cracks,
+            driven("bottom", 0, 6, '"y"', 0),
+            driven("top", 4, 6, '"y"', 4),
+            pinned("end", [6.0, 0.0], "x"),
+            net(0.15, 11.0),
+        ]
+    )
+    expected = STIFF / np.sqrt(2)  # stress E' over the root of twice the distance
+    assert found / expected == pytest.approx(np.tile([1, 0], (4, 1)), abs=1e-3)
+
+
+@pytest.mark.parametrize(("height", "radius"), [(1.0, 0.4), (1.0, 0.8), (0.8, 0.4)])
+def test_a_crack_between_stiffer_layers_frees_what_they_store(height: float, radius: float) -> None:
+    """A strip of three glued layers, clamped and stretched; domains reach beyond the middle one."""
+    layers = (("low", "two", 0.0, 0.5), ("mid", "m", 0.5, 1.5), ("high", "two", 1.5, 2.0))
+    found = intensities(
+        [
+            text.material("two", 5.0, 0.2, None),
+            *(
+                text.block(name, of, text.rectangle((0, low), (8, high)))
+                for name, of, low, high in layers
+            ),
+            '[interfaces.any]\nfriction_angle = "0 deg"\nbonded = true\n',
+            crack("c", [[-0.1, height], [4.0, height]]),
+            driven("bottom", 0, 8, '"x", "y"', 0),
+            driven("top", 2, 8, '"x", "y"', 1),
+            net(0.1, 11.0),
+        ],
+        f"radius = {radius}\n",
+    )
+
+    def constrained(modulus: float, ratio: float) -> float:
+        return modulus * (1 - ratio) / ((1 + ratio) * (1 - 2 * ratio))
+
+    stress = 1 / (1 / constrained(1.0, POISSON) + 1 / constrained(5.0, 0.2))
+    # G = stress / 2 times the stretch of one; both modes where the crack is off the middle.
+    assert np.hypot(*found[0]) == pytest.approx(np.sqrt(STIFF * stress / 2), rel=1e-3)
+    assert (abs(found[0, 1]) < 1e-5) == (height == 1.0)
