@@ -192,6 +192,12 @@ THRESHOLDS: dict[str, Threshold] = {
         None,
         "statics with contact and initial stress",
     ),
+    "softening_across_cells": Threshold(
+        "mean angle (rad) of bands of flow from the nearest edges of their cells",
+        0.15,
+        None,
+        "matter with `softening_energy`",
+    ),
 }
 
 
