@@ -83,7 +83,8 @@ class ModelContact:
         self.record, self._unbonded = ContactRecord(book), book.broken
         self.geometry = ContactGeometry(model, sides, book.points, parts.bends, parts.trace_space)
         self.model, self._parts = model, parts
-        self._candidates = Candidates(self.partners, self.laws, self.geometry, parts.keeps_energy)
+        ways = parts.keeps_energy, parts.enforcement.ahead
+        self._candidates = Candidates(self.partners, self.laws, self.geometry, *ways)
         self._sought: tuple[Contacts | None, Crossed | None] = None, None
 
     @cached_property

@@ -47,6 +47,8 @@ class Candidates:
         Of the points that are found.
     keeps_energy
         Whether contacts go on where search would leave them out while their springs push.
+    ahead
+        Whether contacts push before their sides touch.
     """
 
     def __init__(
@@ -55,9 +57,10 @@ class Candidates:
         laws: ContactLaws,
         geometry: ContactGeometry,
         keeps_energy: bool = False,
+        ahead: bool = False,
     ) -> None:
         self.partners, self._laws, self._geometry = partners, laws, geometry
-        self._keeps_energy = keeps_energy
+        self._keeps_energy, self._ahead = keeps_energy, ahead
 
     def sought(
         self,
@@ -83,7 +86,7 @@ class Candidates:
         found = self.partners.search(state, within, step, record.book, record.found, crossed)
         if record.known is not None and not self._laws.stiff and continues(record.found, found):
             points = continued(record.known, found)
-            points = counted_on(self._geometry.measured(points, state))
+            points = counted_on(self._geometry.measured(points, state), self._ahead)
         else:
             found, points = self._anew(record, state, found, step is not None)
         return found, concatenate([joints, points])
@@ -183,7 +186,7 @@ class Candidates:
         """Return points with the state of their predecessors, and gaps from their references."""
         old, left = before.old, record.book.left
         stiffness, body = self._laws.normal_stiffness, self._geometry.model.manifold.boundary.body
-        new = counted(remember(new, before), before, stiffness, body, left)
+        new = counted(remember(new, before), before, stiffness, body, left, self._ahead)
         if len(old):
             new = as_stretched(new, before)
         if record.known is None:

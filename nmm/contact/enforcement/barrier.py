@@ -51,6 +51,7 @@ class Barrier(IterativeEnforcement):
     """
 
     name: ClassVar[str] = "barrier"
+    ahead: ClassVar[bool] = True
     width: float | None = None
     max_passes: int = above_zero(100)
     tolerance: float = above_zero(1e-7)

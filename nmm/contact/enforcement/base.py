@@ -27,11 +27,14 @@ class Enforcement(ABC):
     exact
         Whether penalties, stiffnesses that are not a joint's own, are replaced by conditions that
         store no energy; where not, contacts are springs of that stiffness.
+    ahead
+        Whether contacts push before their sides touch.
     """
 
     name: ClassVar[str]
     multipliers: ClassVar[bool] = False
     exact: ClassVar[bool] = True
+    ahead: ClassVar[bool] = False
 
     def memory(self) -> "Memory":
         """Return an empty memory for the steps of a run, which keeps as much as options say."""

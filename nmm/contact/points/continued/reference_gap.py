@@ -29,6 +29,7 @@ def counted(
     stiffness: Callable[[ContactPoints], Floats],
     body: Ints,
     left: ContactPoints,
+    ahead: bool = False,
 ) -> ContactPoints:
     """Return new points with gaps counted from their references.
 
@@ -42,11 +43,13 @@ def counted(
         (E,) of the boundary edges.
     left
         Points of joints that the last step gave up, with gap and slip as it left them (m).
+    ahead
+        Whether contacts push before their sides touch.
     """
     reference, on_face, old = np.minimum(new.gap, 0.0), new.length > 0, before.old
     if len(old) and len(new):
         source, stays = before.source, before.stay(new)
-        reference = np.where(stays, _shrunk(new.gap, old.reference[source]), reference)
+        reference = np.where(stays, _shrunk(new.gap, old.take(source), ahead), reference)
         most = np.maximum(old.reference[source], 0.0)
         handed = np.flatnonzero(before.known & ~stays & (new.gap < most))
         if len(handed):
@@ -70,15 +73,21 @@ def counted(
     return with_parts(new, gap=new.gap - reference, reference=reference)
 
 
-def counted_on(points: ContactPoints) -> ContactPoints:
+def counted_on(points: ContactPoints, ahead: bool = False) -> ContactPoints:
     """Return points that all go on, their gaps as measured (m), with gaps counted as they were."""
-    reference = _shrunk(points.gap, points.reference)
+    reference = _shrunk(points.gap, points, ahead)
     return with_parts(points, gap=points.gap - reference, reference=reference)
 
 
-def _shrunk(gap: Floats, reference: Floats) -> Floats:
-    """References (m,) of contacts that go on: an overlap that has become less is followed."""
-    return np.where(gap < reference, reference, np.minimum(gap, 0.0))
+def _shrunk(gap: Floats, old: ContactPoints, ahead: bool) -> Floats:
+    """References (m,) of contacts that go on: an overlap that has become less is followed.
+
+    Not while they push ``ahead`` of touch: they would begin anew, and push further, every time.
+    """
+    stays = gap < old.reference
+    if ahead:
+        stays |= (old.normal_force < 0) & (old.reference < 0)
+    return np.where(stays, old.reference, np.minimum(gap, 0.0))
 
 
 def _from_stretch(gap: Floats, stretch: Floats, most: Floats) -> Floats:

@@ -13,16 +13,16 @@ BODY = np.array([0, 0, 1, 1, 2, 2])
 GAP = st.floats(-1e-2, 1e-2)
 
 
-def points(gap, key=0, reference=0.0, length=0.0, edges=(0, 2)):
+def points(gap, key=0, reference=0.0, length=0.0, edges=(0, 2), force=0.0):
     """One contact point."""
     arrays = {name: np.zeros(1) for name in PARTS}
     found = {"gap": [gap], "reference": [reference], "length": [length]}
-    found |= {"key": [key], "edge_a": [edges[0]], "edge_b": [edges[1]]}
+    found |= {"key": [key], "edge_a": [edges[0]], "edge_b": [edges[1]], "normal_force": [force]}
     arrays |= {name: np.array(value) for name, value in found.items()}
     return ContactPoints(**arrays, history={})
 
 
-def follow(new, old=None, continues=False, stiffness=(1.0, 1.0), left=None):
+def follow(new, old=None, continues=False, stiffness=(1.0, 1.0), left=None, ahead=False):
     """The new point, continuing the old one or not; ``left`` is of joints that came apart."""
     predecessor = np.array([0 if continues else -1])
     new_stiffness, old_stiffness = stiffness
@@ -34,6 +34,7 @@ def follow(new, old=None, continues=False, stiffness=(1.0, 1.0), left=None):
         lambda part: np.where(part.key == 0, old_stiffness, new_stiffness),
         BODY,
         none if left is None else left,
+        ahead,
     )
 
 
@@ -63,6 +64,14 @@ def test_a_reference_recovers_when_the_contact_opens_and_never_grows(gap, refere
         assert found.reference[0] == min(gap, 0.0)
     else:
         assert found.reference[0] == reference
+
+
+@given(st.floats(0.0, 1e-2), st.floats(-1e-2, -1e-6))
+def test_what_pushes_before_its_sides_touch_keeps_its_gap_and_so_its_force(gap, reference):
+    # The force of a barrier is a function of this gap alone.
+    old = points(gap, reference=reference, force=-1.0)
+    found = follow(points(gap + reference), old, continues=True, ahead=True)
+    assert found.gap[0] == pytest.approx(gap, abs=1e-17)  # one rounding of a centimetre
 
 
 @given(GAP, st.floats(-1e-2, 0.0), st.floats(1e-3, 1e3))
