@@ -26,6 +26,8 @@ class PathState:
         The last state in equilibrium.
     load
         (n,) force of a load factor of one there (N).
+    dead
+        (n,) force of loads that no factor scales, as weight (N).
     monitors
         Points of the scene, by name.
     way
@@ -34,6 +36,7 @@ class PathState:
 
     state: State
     load: Floats
+    dead: Floats
     monitors: Mapping[str, MaterialPoints]
     way: Floats
 

@@ -1,9 +1,9 @@
 """Arc length by dissipation: every step takes the same energy from the structure.
 
-With loads ``lambda f`` on a structure that unloads to its origin ``lambda f.u / 2`` is stored, so
-that a step dissipates ``(lambda f.du - dlambda f.u) / 2`` (Gutierrez 2004; Verhoosel, Remmers and
-Gutierrez 2009). Before the first bond is at its limit nothing
-is, and the load is what grows.
+With loads ``p = lambda f + g`` on a structure that unloads to its origin ``p.u / 2`` is stored, so
+that a step dissipates ``(p.du - dlambda f.u) / 2`` (Gutierrez 2004; Verhoosel, Remmers and
+Gutierrez 2009; there without loads ``g`` that stay, as weight). Before the first bond is at its
+limit nothing is dissipated, and the load is what grows.
 """
 
 from dataclasses import dataclass
@@ -34,7 +34,7 @@ class Dissipation(Control):
         return not softened
 
     def row(self, at: PathState) -> Floats:
-        return np.asarray(at.state.load_factor * at.load / 2)
+        return np.asarray((at.state.load_factor * at.load + at.dead) / 2)
 
     def share(self, at: PathState) -> float:
         return -float(at.load @ at.way) / 2

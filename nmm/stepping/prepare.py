@@ -46,5 +46,5 @@ def prepare(scene: "Scene", formulation: Formulation) -> Simulation:
         from nmm.stepping.control.making import check_path  # no other scene follows a path
 
         with placed(scene, formulation):
-            check_path(loading.control, stepper, posed.formulation, ready.start)
+            check_path(loading.control, stepper, posed.formulation)
     return ready

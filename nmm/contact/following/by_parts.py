@@ -34,6 +34,8 @@ def follow(problem: PathProblem, path: PathEquation, solver: LinearSolver) -> Pa
     begin = problem.at(path, np.zeros_like(problem.force), 0.0)
     if begin.converged and path.target == 0:
         return begin
+    if path.target and path.row.any():
+        begin = problem.loaded_further(begin)
     found = newton(problem, path, solver, begin)
     if not found.converged:
         again = newton(problem, path, solver, begin, patient=True)

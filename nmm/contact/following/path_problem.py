@@ -13,6 +13,8 @@ from nmm.controls.path_equation import PathEquation
 
 # Out-of-balance force over the largest one below which iterations without gain are rounding.
 ROUNDED = 1e-8
+# Share of gaps and slips by which bonds at their limit are loaded further, for their tangents.
+LOADED_FURTHER = 1e-6
 
 # From gaps and slips (m,) to forces.
 Law = Callable[[Floats, Floats], ContactForces]
@@ -116,6 +118,16 @@ class PathProblem:
         short = abs(path.left(increment, change)) / (abs(path.target) or 1.0)
         found = PathStep(increment, change, contacts, gap, slip, rest, residual, short)
         return replace(found, slope=slope)
+
+    def loaded_further(self, begin: PathStep) -> PathStep:
+        """Return the start of a step with the tangents of contacts that are loaded further.
+
+        A bond that softens is at its limit where a step begins, with one tangent as it opens and
+        another one as it unloads. Rounding would choose, and a structure that unloads as a whole
+        takes no energy however far it goes.
+        """
+        further = self.law((1 + LOADED_FURTHER) * begin.gap, (1 + LOADED_FURTHER) * begin.slip)
+        return replace(begin, contacts=replace(begin.contacts, slopes=further.slopes))
 
     def tangent(self, step: PathStep) -> csc_array:
         """Return the matrix (n, n) by which forces answer a further increment."""

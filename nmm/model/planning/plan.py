@@ -108,6 +108,12 @@ class Plan(NamedEffects):
         more, now = (self.force(state, Instant(time, at)) for at in (factor + 1.0, factor))
         return more - now
 
+    def dead_load(self, state: State) -> Floats:
+        """Return the force (n,) of loads that no load factor scales, as weight (N)."""
+        working, at = {name for name, _ in self.named("work")}, Instant(state.time, 0.0)
+        loads = (one.force(state, at) for name, one in self.named("force") if name in working)
+        return sum(loads, start=np.zeros(len(state.deformation)))
+
     @cached_property
     def steady(self) -> bool:
         """Whether no force depends on the instant, in dynamics."""

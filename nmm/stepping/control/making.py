@@ -2,10 +2,8 @@
 
 from typing import TYPE_CHECKING
 
-from nmm.assembly.motion import State
 from nmm.contact.enforcement.base import make_enforcement
 from nmm.controls.base import CONTROLS, Control
-from nmm.effects.base import Instant
 from nmm.errors import FormulationError
 from nmm.stepping.control.trials import Trials
 
@@ -23,10 +21,8 @@ def control_of(table: "ControlTable") -> Control:
     return CONTROLS.load(table.type).of(table)
 
 
-def check_path(
-    table: "ControlTable", stepper: "Stepper", formulation: "Formulation", start: State
-) -> None:
-    """Check that a path can be followed from the ``start`` of a scene.
+def check_path(table: "ControlTable", stepper: "Stepper", formulation: "Formulation") -> None:
+    """Check that a path can be followed from the start of a scene.
 
     Raises
     ------
@@ -37,10 +33,6 @@ def check_path(
     if control_of(table).to_origin and (limited := limits(stepper)):
         what = f'type: "{table.type}": {", ".join(limited)} that yield or slide do not unload to'
         faults.append((f"{what} their origin", 'use "displacement", "opening" or "events"'))
-    if control_of(table).to_origin and not faults and (left := unscaled(stepper, start)):
-        what = f'type: "{table.type}": {", ".join(left)} act at a load factor of zero: what unloads'
-        why = 'use "displacement", "opening" or "events", or let the factor scale all loads'
-        faults.append((f"{what} does not return to its origin", why))
     if control_of(table).from_limit and not faults and not Trials(stepper, {}).may_give_way():
         what = f'type: "{table.type}": no bond breaks, or begins to soften, at a limit of its own'
         faults.append((what, 'use "displacement" or "opening", or no normal_stiffness of bonds'))
@@ -51,13 +43,6 @@ def check_path(
 def limits(stepper: "Stepper") -> list[str]:
     """Return the names of effects whose members yield or slide."""
     return [name for name, effect in stepper.plan.bent.items() if effect.limited]
-
-
-def unscaled(stepper: "Stepper", state: State) -> list[str]:
-    """Return the names of effects whose loads no load factor scales: weight above all."""
-    working, at = {name for name, _ in stepper.plan.named("work")}, Instant(state.time, 0.0)
-    loads = ((name, one) for name, one in stepper.plan.named("force") if name in working)
-    return [name for name, one in loads if one.force(state, at).any()]
 
 
 def hindrances(stepper: "Stepper", formulation: "Formulation") -> list[tuple[str, str]]:

@@ -31,7 +31,9 @@ class Trials:
 
     def standing(self, at: OnPath) -> PathState:
         """Return what controls ask of where a path stands."""
-        return PathState(at.state, self.stepper.plan.unit_load(at.state), self.monitors, at.way)
+        plan = self.stepper.plan
+        load, dead = plan.unit_load(at.state), plan.dead_load(at.state)
+        return PathState(at.state, load, dead, self.monitors, at.way)
 
     def along(self, at: PathState, path: PathEquation) -> TriedStep:
         """Try a step along a path."""
