@@ -13,6 +13,7 @@ from nmm.stepping.audits.fields import fields
 from nmm.stepping.audits.growth import growth
 from nmm.stepping.audits.softening import softening
 from nmm.stepping.audits.steps import steps
+from nmm.stepping.audits.strains import strains
 from nmm.stepping.drive.verdict import CONVERGED, FAILURE, UNBALANCED, RunVerdict
 
 AUDITS: tuple[Callable[[EndedRun], Findings], ...] = (
@@ -25,6 +26,7 @@ AUDITS: tuple[Callable[[EndedRun], Findings], ...] = (
     closed_cracks,
     softening,
     steps,
+    strains,
 )
 
 

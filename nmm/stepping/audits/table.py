@@ -148,6 +148,12 @@ THRESHOLDS: dict[str, Threshold] = {
         None,
         "runs until failure",
     ),
+    "large_strain": Threshold(
+        "largest mean strain of an element where a run ends, in any direction",
+        0.1,
+        None,
+        'contact, unless `[rotation] update = "finite"`',
+    ),
     "growth_energy": Threshold(
         "energy that growth freed less what its toughness took, over the largest energy",
         1e-3,

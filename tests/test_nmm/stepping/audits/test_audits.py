@@ -54,6 +54,23 @@ def test_a_free_block_that_turns_has_nothing_to_say():
     assert {"momentum", "angular_momentum", "energy_made_in_run"} <= set(found.audits)
 
 
+@pytest.mark.parametrize("pull", [0.099, 0.2])
+def test_strains_beyond_a_tenth_are_told_with_block_and_place(pull):
+    """A strip of 1 MPa without Poisson's ratio is strained by its traction in MPa."""
+    tables = [
+        text.material("rubber", 1e6, 0.0),
+        text.interface("any", 0.0),
+        text.box("strip", (0, 0), (2, 1), "rubber"),
+        '[[supports]]\nname = "left"\nsegment = [[0, 0], [0, 1]]\nfix = ["x", "y"]\n',
+        '[[loads]]\nname = "pull"\nkind = "edge"\nsegment = [[2, 0], [2, 1]]\n'
+        f"traction = [{pull * 1e6}, 0]\n",
+    ]
+    found = run(text.scene('plane = "stress"\n[contact]\n', tables))
+    assert found.audits["large_strain"] == pytest.approx(pull, rel=1e-9)
+    told = [f"block strip is strained by {100 * pull:.3g} % about (1, 0.5) m"] * (pull > 0.1)
+    assert [warning.split(";")[0] for warning in found.warnings] == told
+
+
 def test_energy_that_a_coarse_step_loses_is_told_with_a_step_that_keeps_it():
     # Soft springs, so that the steps that resolve them are not too many.
     shorter, contact = DROP.replace("0.5\n", "0.3\n"), {"normal_penalty": 0.5}
