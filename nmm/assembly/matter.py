@@ -275,6 +275,14 @@ class Matter:
         across = history.get("stress_zz", np.zeros((len(whole), 1)))
         return np.asarray(whole[:, 0] + whole[:, 1] + across[:, 0])
 
+    def size_share(self, history: History) -> Floats:
+        """Return `Law.size_share` (Q,) of points under what presses on them now."""
+        found = np.zeros(len(self.law))
+        for law, at in self._points:
+            if law.sized and self.size is not None:
+                found[at] = law.size_share(self.size[at], -self._pressing(history)[at] / 3)
+        return found
+
     def missed(self, before: Floats, after: Floats) -> float:
         """Return what the mean force of both ends does beyond its work: nothing (J)."""
         return 0.0

@@ -109,6 +109,13 @@ class Law(ABC):
         """
         return None
 
+    def size_share(self, size: Floats, pressure: Floats) -> Floats:
+        """Return sizes (m,) of cells over the largest under a mean pressure (m,) in Pa.
+
+        By default 0: `check_size` knows it all.
+        """
+        return np.zeros(len(size))
+
     def variables(self, plane: str) -> History:
         """Return the initial internal variables of one point, (h,) each."""
         return {}

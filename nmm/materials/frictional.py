@@ -137,6 +137,18 @@ class Frictional(SofteningPlasticity):
                 remedy = f", or give a tensile_strength below the apex of {self.apex:.4g} Pa"
         return most, remedy
 
+    def size_share(self, size: Floats, pressure: Floats) -> Floats:
+        """See `Law.size_share`: friction that falls takes strength as well, by the pressure.
+
+        Of one plane of friction; at constant pressure points snap back from 1.17 to 1.7 on.
+        """
+        if self.softening_energy is None:
+            return super().size_share(size, pressure)
+        first, last = np.tan(self.angles[:, 0])
+        taken = pressure.clip(0) * (first - last) / (self.cohesion - self.residual_cohesion)
+        eased = self.sets[0].eased / 2 / self.softening_energy
+        return np.asarray(size * eased * (1 + taken))
+
     def variables(self, plane: str) -> History:
         more = {"softened": np.zeros(1)} if self.sized else {}
         return {**super().variables(plane), **more}

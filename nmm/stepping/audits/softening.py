@@ -1,29 +1,33 @@
-"""Matter that softens: how far its bands of flow lean against rows of cells."""
+"""Matter that softens: cells too large under pressure, and bands that lean against their rows."""
 
 import math
 
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from integration.rules import PointRule
+from nmm.assembly.matter import Matter
 from nmm.assembly.model import Model
 from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings
 
 
 def softening(run: EndedRun) -> Findings:
-    """Audit bands that cross cells askew: only a row of cells takes the energy of a band.
+    """Audit sizes of cells under the pressure at the end, and bands that cross cells askew.
 
-    The mean over all that softened, by its flow; elements that are no whole cells, and what
-    softened before the last stage, are not counted.
+    Only a row of cells takes the energy of a band. Leans are told in the mean over all that
+    softened, by its flow; elements that are no whole cells are not counted, nor is what softened
+    before the last stage.
     """
     model = run.stepper.model
     matter, before, after = model.matter, run.start.history, run.state.history
-    if matter is None or not matter.softens:
+    if not isinstance(matter, Matter) or not matter.softens:
         return
     names = "plastic_strain", "accumulated_plastic_strain"
     if not all(name in before and before[name].shape == after[name].shape for name in names):
         return
     strain, flow = (after[name] - before[name] for name in names)
     flow = flow * np.array([law.sized for law in matter.laws])[matter.law, None]
+    yield _under_pressure(matter.size_share(after) * (flow[:, 0] > 0), matter.points.rule)
     elements, means = matter.points.means(np.hstack([strain[:, :3], flow]))
     share = np.zeros(len(model.cut.element_whole))
     share[elements] = means[:, 3] * model.element_area[elements]
@@ -39,6 +43,20 @@ def softening(run: EndedRun) -> Findings:
         f"bands that soften cross rows of cells at {math.degrees(mean):.0f} degrees in the mean, "
         "where they are wider than a row: they take up to twice their softening energy",
         "give quads an angle along the band ([cover] angle); smaller cells mend nothing",
+    )
+
+
+def _under_pressure(share: Floats, rule: PointRule) -> AuditFinding:
+    """Tell where cells unload faster than they soften; ``share`` (Q,) of the largest of points."""
+    at = int(np.argmax(share))
+    x, y = rule.points[at]
+    return AuditFinding(
+        "softening_under_pressure",
+        float(share[at]),
+        f"friction falls under pressure in a cell at ({x:.6g}, {y:.6g}) that is {share[at]:.3g} "
+        "times too large to unload more slowly than it softens: points may fall to their last "
+        "strength at once, and bands take more than their softening energy",
+        "refine the cover there by as much",
     )
 
 

@@ -198,6 +198,12 @@ THRESHOLDS: dict[str, Threshold] = {
         None,
         "statics with contact and initial stress",
     ),
+    "softening_under_pressure": Threshold(
+        "size of a cell in which friction falls over the largest under its pressure, about",
+        1.0,
+        None,
+        "`mohr_coulomb` and `drucker_prager` with `softening_energy`",
+    ),
     "softening_across_cells": Threshold(
         "mean angle (rad) of bands of flow from the nearest edges of their cells",
         0.15,

@@ -335,6 +335,27 @@ def test_cells_in_which_ground_snaps_back_are_refused_with_the_largest():
         law.check_size(np.array([1.001 * most]))
 
 
+@pytest.mark.parametrize("law", [MohrCoulombPlasticity, DruckerPragerPlasticity])
+def test_friction_snaps_back_in_cells_too_large_for_the_pressure(law):
+    """Sheared under 3 MPa points fall evenly in cells of 0.9, and at once in those of 1.7."""
+    ground, mean = law(E, NU, YIELD, PHI, **SOFT, residual_friction_angle=PHI / 2), 3e6
+    pressure = np.full(2, mean)
+    size = np.array([0.9, 1.7]) / ground.size_share(np.ones(2), pressure)
+    volume = -mean * 3 * (1 - 2 * NU) / E
+    history = {name: np.tile(one, (2, 1)) for name, one in ground.variables("strain").items()}
+    history["plastic_strain"][:, 3] = -volume / 3
+    history["cell_size"] = size[:, None]
+    done, jump = np.zeros(2), np.zeros(2)
+    for way in np.linspace(0.8, 1.1, 300) * (YIELD + mean * np.tan(PHI)) * np.cos(PHI) / SHEAR:
+        found = ground.update(np.tile([volume / 3, volume / 3, way], (2, 1)), history, "strain", 0)
+        history = {**found.history, "cell_size": size[:, None]}
+        done, before = history["softened"][:, 0], done
+        jump = np.maximum(jump, done - before)
+    assert done.min() > 0.2
+    assert jump[0] < 0.05
+    assert jump[1] > 0.5
+
+
 @pytest.mark.parametrize(
     "constants",
     [
