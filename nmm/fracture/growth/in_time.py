@@ -83,7 +83,9 @@ class GrowthInTime(GrowingCracks):
         length, was = new._fronts.gained(before, after), new._fronts.former(before, after)
         grown = np.flatnonzero(length > 0)
         running, inflow = self._with_new_tips(change, was[len(self._fronts) :])
-        new._inflow = inflow.cut(grown, length[grown], np.full(len(grown), self._bound.min()))
+        # Where no tip was before, all are at rest, and no bound counts.
+        bound = np.full(len(grown), self._bound.min(initial=np.inf))
+        new._inflow = inflow.cut(grown, length[grown], bound)
         new._running, span = running.cut(grown, length[grown])
         released = tractions_on_new_faces(change, was[grown], span, self._measured.stresses)
         new._released = self._released.followed(change).joined(released)
