@@ -42,7 +42,7 @@ def unheld(stepper: "Stepper", state: State, names: Sequence[str], balanced: boo
     A solver may leave a part without load where it stands, so they are asked where no anchors were
     used too.
     """
-    model, found = stepper.model, unopposed(stepper)
+    model, found = stepper.model, unopposed(stepper, state if balanced else None)
     radius = np.sqrt(model.manifold.body_area)
     stands = "in neutral equilibrium" if balanced else "held by nothing"
     return [
@@ -52,9 +52,10 @@ def unheld(stepper: "Stepper", state: State, names: Sequence[str], balanced: boo
     ] + ([f"and {len(found) - NAMED} blocks more"] if len(found) > NAMED else [])
 
 
-def unopposed(stepper: "Stepper") -> dict[int, Floats]:
+def unopposed(stepper: "Stepper", at: State | None = None) -> dict[int, Floats]:
     """Return the bodies that nothing holds, each with a rigid motion (3,) that nothing opposes.
 
+    In the equilibrium ``at``, where it is given, loads oppose turns too, see `_turned_back`.
     Anchors drag a motion of all bodies along where nothing else holds them, and only there. Strain
     makes none stiffer, so that rigid motions alone are asked.
     """
@@ -67,7 +68,10 @@ def unopposed(stepper: "Stepper") -> dict[int, Floats]:
     # Of Young's modulus times thickness: as stiff as `anchors` are.
     soft = ANCHOR * model.thickness * strong[:, None] / (radius[:, None] ** [2, 2, 0])
     soft = soft.ravel()
-    factor = stepper.solver.factorise(csc_array(stiffness + diags_array(soft)))
+    held = soft.copy()
+    if at is not None:
+        held[2::3] += _turned_back(stepper, at)
+    factor = stepper.solver.factorise(csc_array(stiffness + diags_array(held)))
     found: dict[int, Floats] = {}
     for kind, size in enumerate((np.ones_like(radius), np.ones_like(radius), radius)):
         motion = np.zeros((model.manifold.n_bodies, 3))
@@ -76,6 +80,25 @@ def unopposed(stepper: "Stepper") -> dict[int, Floats]:
         for body in np.flatnonzero(np.abs(dragged[:, kind]) * size > FREE).tolist():
             found.setdefault(body, dragged[body])
     return found
+
+
+def _turned_back(stepper: "Stepper", at: State) -> Floats:
+    """Return by what moment a turn (B,) of each body is opposed as arms of loads turn (N m).
+
+    In equilibrium ``sum F . x`` of forces that keep their direction is ``int tr(sigma) dV``, about
+    any point. None of bodies that others touch, whose forces turn with faces, nor where pressures
+    follow; what is turned on is not judged.
+    """
+    model, plan = stepper.model, stepper.plan
+    manifold, added = model.manifold, plan.added_stress(at)
+    stress = model.stress(at) if added is None else model.stress(at) + added
+    moment = model.thickness * manifold.elements.areas * (stress[:, 0] + stress[:, 1])
+    back = np.maximum(np.bincount(manifold.element_body, moment, manifold.n_bodies), 0.0)
+    if plan.contact is not None:
+        points = plan.contact.standing
+        edges = np.concatenate([points.edge_a, points.edge_b])[np.tile(points.normal_force != 0, 2)]
+        back[manifold.boundary.body[edges]] = 0.0
+    return back if all(effect.symmetric for effect in plan.effects.values()) else 0.0 * back
 
 
 def _against_rigid_motions(stepper: "Stepper") -> csc_array | None:

@@ -125,6 +125,8 @@ def test_a_block_that_hangs_on_one_anchor_is_at_rest():
     left = 30000 - 2000 * 9.81 * 1.01
     run = nmm.run(nmm.parse_scene(ANCHORED % 1e5))
     assert run.summary.status == "converged", run.summary.sentence
+    # A turn is opposed by 30 kN x 0.395 m - 10.2 kN x 0.445 m = 7.3 kN m.
+    assert "neutral" not in run.summary.sentence
     lift = run.frames[-1].points[-4:] - run.frames[0].points[-4:]
     assert lift[:, 1] == pytest.approx(left / 1e5, rel=1e-3)  # strain of the block: 1e-5 m
     assert run.history["springs:anchor:force"][-1] == pytest.approx(left, rel=1e-6)
