@@ -76,9 +76,9 @@ class GrowingCracks(Effect):
 
     @property
     def caution(self) -> str:
-        """See `Effect.caution`: nuclei that are too short, holes that cells are too coarse for."""
+        """See `Effect.caution`: nuclei too short, cells too coarse for holes and domains."""
         holes = small_holes(self._setup, self._measured.tip, self.rule.max_growth)
-        return "; ".join(filter(None, (self._nucleation.caution, holes)))
+        return "; ".join(filter(None, (self._nucleation.caution, holes, self._measured.caution)))
 
     @property
     def about(self) -> str:

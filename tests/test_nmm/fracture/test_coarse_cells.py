@@ -44,6 +44,18 @@ def test_domains_are_of_the_cells_about_each_tip(size: float) -> None:
     assert np.array(found) / (1.33371 * np.sqrt(np.pi * 0.5)) == pytest.approx(1.0, abs=0.02)
 
 
+@pytest.mark.parametrize("growth", [0.15, 0.4, 0.8, 1.3])
+def test_cells_that_grow_within_the_domain_of_a_tip_are_told_before_they_cost_a_percent(
+    growth: float,
+) -> None:
+    cover = graded(0.05, [-0.5, 0.0], [0.5, 0.0]).replace("radius = 0.1, growth = 0.15", "GROWTH")
+    run = nmm.run(parse_scene(plate(cover.replace("GROWTH", f"growth = {growth}"))))
+    share = run.history["fracture:c:end:K_I"][-1] / (1.33371 * np.sqrt(np.pi * 0.5))  # A11
+    told = any("domains of intensities hold few cells" in one for one in run.summary.warnings)
+    assert told or abs(share - 1) < 0.005
+    assert told == (growth > 0.5)
+
+
 def holed(size: float, middle: tuple[float, float]) -> nmm.Run:
     """Return the plate of four metres with a hole of 0.1 m."""
     turn = np.linspace(0, 2 * np.pi, 48, endpoint=False)

@@ -11,6 +11,7 @@ from nmm.assembly.motion import State
 from nmm.assembly.stress_points import StressAt
 from nmm.effects.base import Setup
 from nmm.fracture.growth.rule import GrowthRule
+from nmm.fracture.growth.tips.coarse_domains import coarse_domains
 from nmm.fracture.growth.tips.intensities import Intensities, tip_moduli
 from nmm.fracture.growth.tips.loaded_tips import loaded_tips
 from nmm.fracture.intensity_rows import IntensityRows
@@ -41,7 +42,7 @@ class MeasuredTips:
 
     def __init__(self, setup: Setup, rule: GrowthRule, tips: Ints, radius: float | None) -> None:
         self._model, self._rule, self._gravity = setup.model, rule, setup.scene.gravity
-        self._asked = radius
+        self._asked, self._origin = radius, setup.origin
         self.front = np.flatnonzero(tips >= 0)
         self.tip = tips[self.front]
         self.stresses: Sequence[StressAt] = ()
@@ -51,6 +52,11 @@ class MeasuredTips:
     def forget(self) -> None:
         """Drop the cached intensity factors."""
         self._known: tuple[Floats, Intensities] | None = None
+
+    @property
+    def caution(self) -> str:
+        """What is known to spoil intensities; empty where nothing is."""
+        return coarse_domains(self._model.cut, self.tip, self._radii, self._origin)
 
     def in_state(self, state: State) -> Intensities:
         """Return the intensity factors in a state."""
