@@ -21,6 +21,8 @@ from nmm.stepping.step.trial import Attempt
 Taken = tuple[State, Attempt, InTime, str]
 # A step is halved down to this power of two of the chosen step before the run is given up: 1/1024.
 DEEPEST_HALVING = 10
+# What to do where a step without inertia has no end: its next equilibrium may be a jump away.
+WITHOUT_INERTIA = "; take longer steps, or add [inertia] to follow what moves"
 
 
 def run_in_time(
@@ -85,7 +87,8 @@ def _next(
     except NmmError as fault:
         return broken_off(recorder, f"{at.state.time:.6g} s", fault)
     if not attempt.converged:
-        return RunVerdict(FAILED, _failure(attempt, at.state, schedule))
+        remedy = "" if stepper.plan.inertia is not None else WITHOUT_INERTIA
+        return RunVerdict(FAILED, _failure(attempt, at.state, schedule) + remedy)
     after, contacts = stepper.accept(attempt)
     stands = AcceptedState(after, contacts)
     events = asked(recorder, stands) if schedule.events else ()
