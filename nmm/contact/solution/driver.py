@@ -108,8 +108,8 @@ class ContactSolver:
         ``more`` returns further transforms: whole bonds, averages over faces, constraints.
         """
         self.memory.moving = request.step is not None
-        passes, loss, besides = 0, request.lost, more(contacts)
-        gone: BrokenBonds | None = None
+        passes, gone, besides = 0, request.broken, more(contacts)
+        loss = 0.0 if gone is None else gone.loss
         while True:
             agreed = self._agreed(contacts, rows, request, besides)
             answer, iteration = agreed.answer, agreed.iteration

@@ -38,8 +38,8 @@ class ContactSolution:
     rows
         What the forces acted through.
     broken
-        The contacts at the start of the last solution, with the bonds broken that broke before it;
-        None where none did.
+        The contacts at the start of the last solution, with the bonds broken that broke before it
+        in the same step; None where none did.
     between
         Work (J) that loads do within a step of a path beyond that of their mean at both ends: what
         bonds take that pass their peak between them.

@@ -7,7 +7,7 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.contact.enforcement.null_space import NullSpace
-from nmm.contact.solution.record import Breaking
+from nmm.contact.solution.record import Breaking, BrokenBonds
 from nmm.solvers.linear import LinearSolver
 
 
@@ -33,8 +33,8 @@ class StepRequest:
     near
         Whether an increment (n,) stays within the reach of the contact search, without which no
         bond is judged. None: every increment does.
-    lost
-        Energy (J) lost by bonds that broke earlier in the same step.
+    broken
+        Bonds that broke earlier in the same step; None where none did.
     time
         At its end (s); None where nothing depends on time.
     foreseen
@@ -52,7 +52,7 @@ class StepRequest:
     null_space: NullSpace | None = None
     breaking: Breaking = "all"
     near: Callable[[Floats], bool] | None = None
-    lost: float = 0.0
+    broken: BrokenBonds | None = None
     time: float | None = None
     foreseen: Floats | None = None
     among: Floats | None = None

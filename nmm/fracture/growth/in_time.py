@@ -84,7 +84,7 @@ class GrowthInTime(GrowingCracks):
         grown = np.flatnonzero(length > 0)
         running, inflow = self._with_new_tips(change, was[len(self._fronts) :])
         # Where no tip was before, all are at rest, and no bound counts.
-        bound = np.full(len(grown), self._bound.min(initial=np.inf))
+        bound = float(self._bound.min(initial=np.inf))
         new._inflow = inflow.cut(grown, length[grown], bound)
         new._running, span = running.cut(grown, length[grown])
         released = tractions_on_new_faces(change, was[grown], span, self._measured.stresses)

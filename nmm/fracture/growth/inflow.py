@@ -61,10 +61,10 @@ class EnergyInflow:
         """Rates (n,) of the cracks at rest, as far as they are known."""
         return np.maximum(self.now, self.at_rest)
 
-    def cut(self, front: Ints, length: Floats, bound: Floats) -> "EnergyInflow":
+    def cut(self, front: Ints, length: Floats, bound: float) -> "EnergyInflow":
         """Return that after segments (k,) of lengths (m) were cut at fronts (k,).
 
-        ``bound`` (k,) is Rayleigh's speed there (m/s). A tip that runs its first segment has stood.
+        ``bound`` is Rayleigh's speed (m/s). A tip that runs its first segment has stood.
         """
         span = self.time - self.since[front]
         part = np.minimum(length / (span * bound), FASTEST)

@@ -162,8 +162,7 @@ class ContactSearch:
         None of them was judged by a solution beyond the reach of the search.
         """
         found = self._anew(equations, replace(sought, reach=reach))
-        broken = solved.broken or sought.broken
-        return found if broken is None else found.without(broken)
+        return found if solved.broken is None else found.without(solved.broken)
 
     def _anew(self, equations: Equations, sought: SoughtContacts) -> SoughtContacts:
         """Return the same with the contacts of a new search."""

@@ -97,8 +97,6 @@ class ContactStepSolver:
                 break
             sought = further
         self.search.keep(state, sought)
-        if solved.broken is None and sought.broken is not None:
-            solved = with_parts(solved, broken=sought.broken)
         if good and solved.rows is not None:
             result = self._completed(equations, solved, result, rest, near is not None)
         passage = "" if motion is None else partners.passage(motion)
@@ -150,7 +148,7 @@ class ContactStepSolver:
             null_space=held,
             breaking=breaking,
             near=near,
-            lost=0.0 if sought.broken is None else sought.broken.loss,
+            broken=sought.broken,
             time=equations.end.time,
             foreseen=None if foreseen is None else foreseen.increment,
             among=equations.among,

@@ -9,7 +9,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, limit
-from nmm.verification.problems.water.seepage import pressure
+from nmm.verification.problems.water.seepage import consolidating, pressure
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run
@@ -61,12 +61,7 @@ class ConsolidatingColumn(SceneCase):
         conductivity = HEIGHT**2 * (storage + WEIGHT / CONFINED)
         top, corner = [[0, HEIGHT], [1, HEIGHT]], [0, 0]
         return text.scene(
-            'title = "Consolidation"\nplane = "strain"\n[loading]\nscaled = []\n'
-            f"[seepage]\ncoupled = true\ntransient = true\ninitial = {HEIGHT!r}\n"
-            f"unit_weight = {WEIGHT!r}\nduration = {self.time!r}\n"
-            f"[formulation.loading]\nincrement = {1 / self.steps!r}\n"
-            '[formulation.rotation]\nupdate = "small"\n'
-            '[formulation.supports]\nmethod = "lagrange"\n',
+            consolidating("Consolidation", HEIGHT, WEIGHT, self.time, self.steps),
             [
                 text.material("soil", MODULUS, POISSON, None)
                 + f"hydraulic_conductivity = {conductivity!r}\nspecific_storage = {storage!r}\n",

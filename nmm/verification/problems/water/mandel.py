@@ -10,7 +10,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds, limit
-from nmm.verification.problems.water.seepage import pressure
+from nmm.verification.problems.water.seepage import consolidating, pressure
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run
@@ -137,12 +137,7 @@ class SqueezedSoil(SceneCase):
         conductivity = HALF**2 * WEIGHT / exact.diffusivity
         a, b = HALF, HIGH
         return text.scene(
-            'title = "Mandel"\nplane = "strain"\n[loading]\nscaled = []\n'
-            f"[seepage]\ncoupled = true\ntransient = true\ninitial = {b!r}\n"
-            f"unit_weight = {WEIGHT!r}\nduration = {self.time!r}\n"
-            f"[formulation.loading]\nincrement = {1 / self.steps!r}\n"
-            '[formulation.rotation]\nupdate = "small"\n'
-            '[formulation.supports]\nmethod = "lagrange"\n',
+            consolidating("Mandel", b, WEIGHT, self.time, self.steps),
             [
                 text.material("soil", MODULUS, POISSON, None)
                 + f"hydraulic_conductivity = {conductivity!r}\nspecific_storage = {storage!r}\n",

@@ -38,6 +38,18 @@ def head(name: str, start: Floats, end: Floats, value: float, more: str = "") ->
     return f'[[heads]]\nname = "{name}"\nsegment = {segment}\nhead = {value!r}\n{more}'
 
 
+def consolidating(title: str, initial: float, weight: float, time: float, steps: int) -> str:
+    """Head of a scene of soil that gives way as its water leaves, over a time (s) in steps."""
+    return (
+        f'title = "{title}"\nplane = "strain"\n[loading]\nscaled = []\n'
+        f"[seepage]\ncoupled = true\ntransient = true\ninitial = {initial!r}\n"
+        f"unit_weight = {weight!r}\nduration = {time!r}\n"
+        f"[formulation.loading]\nincrement = {1 / steps!r}\n"
+        '[formulation.rotation]\nupdate = "small"\n'
+        '[formulation.supports]\nmethod = "lagrange"\n'
+    )
+
+
 def pressure(run: "Run", points: Floats) -> Floats:
     """Pressure of the pores (m,) of a run's last state at points (m, 2), Pa."""
     effects = run.stepper.plan.effects

@@ -5,13 +5,13 @@ import pytest
 
 from nmm.fracture.growth.inflow import EnergyInflow
 
-BOUND, PIECE = np.array([100.0]), np.array([2.0])
+BOUND, PIECE = 100.0, np.array([2.0])
 FIRST = np.array([0])
 
 
 def run_on(tip: EnergyInflow, part: float, rate: float) -> EnergyInflow:
     """Return a tip after a piece at a part of the bound, with a sawtooth that flows in."""
-    span, start = PIECE[0] / (part * BOUND[0]), tip.time
+    span, start = PIECE[0] / (part * BOUND), tip.time
     for share in np.linspace(0, 1, 401)[1:]:  # steps
         tip = tip.after(start + share * span, np.array([2 * rate * share]))
     return tip.cut(FIRST, PIECE, BOUND)
