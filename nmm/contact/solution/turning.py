@@ -26,12 +26,12 @@ def matters(
     """
     edge_a, edge_b, force, gap = contacts
     turn, way, turned, moved = motions
-    deepest = 0.0
+    deepest, farthest = 0.0, way.max()
     for c in range(len(gap)):
         if force[c] != 0.0:
-            deepest = max(deepest, abs(gap[c]), least * way.max())
+            deepest = max(deepest, abs(gap[c]), least * farthest)
     # Most steps turn no body by as much as would matter to any.
-    most = turned.max() * way.max() + moved.max() * turn.max()
+    most = turned.max() * farthest + moved.max() * turn.max()
     if not 2 * most > share * deepest > 0:
         return False
     off = 0.0
