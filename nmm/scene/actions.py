@@ -173,7 +173,11 @@ class Loading(Frozen):
 
 
 class InitialVelocityTable(Frozen):
-    """Velocity of blocks at the start."""
+    """Velocity of blocks at the start.
+
+    A block spins about its own centroid, with all pieces into which cracks part it; pieces of a
+    tessellation, or of a block that joints cut, are blocks.
+    """
 
     block: BlockName = Field(description='the name of a block, or "all"', examples=["all"])
     velocity: tuple[Velocity, Velocity] = Field(

@@ -5,14 +5,21 @@ from typing import Self
 
 import numpy as np
 
+from covers.approximation.manifold import Manifold
 from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Setup
 
+# Rows turned by it are turned by 90 degrees, counter-clockwise.
+QUARTER_TURN = np.array([[0.0, 1.0], [-1.0, 0.0]])
+
 
 class InitialVelocity(Effect):
-    """Rigid motion (vx, vy, omega about the centroid) of each body at the start."""
+    """Rigid motion (vx, vy, omega about the centroid) of each block at the start.
+
+    Bodies into which cracks part a block begin with the motion of the whole.
+    """
 
     name = "initial velocity"
     external = False
@@ -26,16 +33,27 @@ class InitialVelocity(Effect):
     def from_setup(cls, setup: Setup) -> Self:
         """Build from ``[[initial_velocities]]``; later tables overwrite earlier ones."""
         manifold = setup.model.manifold
-        motion = np.zeros((manifold.n_bodies, 3))
+        motion, apart = np.zeros((manifold.n_bodies, 3)), from_middle(manifold)
         for item in setup.scene.initial_velocities:  # a handful of tables
             regions = setup.regions(item.block)
             chosen = slice(None) if regions is None else regions[manifold.element_region]
-            motion[np.unique(manifold.element_body[chosen])] = [
-                *item.velocity,
-                item.angular_velocity,
-            ]
+            bodies, spin = np.unique(manifold.element_body[chosen]), item.angular_velocity
+            around = spin * apart[bodies] @ QUARTER_TURN
+            motion[bodies] = np.column_stack([item.velocity + around, np.full(len(bodies), spin)])
         return cls(setup.model, motion)
 
     def begin(self, state: State) -> State:
         """Return the state with the velocities set."""
         return replace(state, velocity=self._model.manifold.rigid_modes @ self._motion.ravel())
+
+
+def from_middle(manifold: Manifold) -> Floats:
+    """Return how far the centroids (B, 2) of bodies are from those of their blocks (m)."""
+    block = np.empty(manifold.n_bodies, dtype=np.int64)
+    block[manifold.element_body] = manifold.element_region
+    first, number = np.unique(block, return_index=True, return_inverse=True)[1:]
+    # From the first body of a block, so that a block of one body is at its middle to the last bit.
+    apart = manifold.body_centroid - manifold.body_centroid[first[number]]
+    area = np.bincount(number, manifold.body_area)
+    moment = [np.bincount(number, manifold.body_area * along) for along in apart.T]
+    return np.asarray(apart - (np.array(moment) / area).T[number])

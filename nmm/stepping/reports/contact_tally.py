@@ -26,6 +26,8 @@ def tallied(
     contact, deepest, after = stepper.plan.contact, totals.deepest, attempt.state
     assert contact is not None
     gap = contacts.distance
+    # Of joints that came apart only lines are left, of which bodies that turn lie on either side.
+    gap[len(gap) - len(contact.record.book.lost) :] = np.inf
     overlap = ends = -float(least(gap, initial=0.0))
     turned = 0.0
     if len(contacts):
