@@ -1,13 +1,13 @@
 """Runs of one scene side by side: displacement, stress, their differences, forces, curves."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.plots.canvas import SMALL, STYLE, WIDTH, PathLike, frame, save
+from nmm.plots.canvas import BESIDE, SMALL, STYLE, WIDTH, PathLike, frame, save
 from nmm.plots.families import styles
 from nmm.plots.units import label, prefixed, unit_of, words_of
 
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 WIDEST = 3.0  # points, of the largest contact force
 SMALLEST = 0.01  # of the largest force; below, nothing is drawn
+BAR = (1.03, 0.0, 0.03, 1.0)  # corner and size of a row's scale, of those of its last picture
+BETWEEN = 0.3  # inches between rows, for ticks and a title
 SHARE = 99.5  # percent of the stresses that the scale holds: singular corners would swallow it
 
 
@@ -78,28 +80,23 @@ def comparison(
     contacts = any(len(one.contact_vector) for one in runs)
     curves = any(len(one.x) > 1 for one in runs)
     broken = any(len(one.cracks) for one in runs)
-    compared = len(differences) > 0
-    fields = 2 + 2 * compared
-    figure, panels = _panels(fields + broken + contacts, len(runs), extent, curves)
+    pictures = 2 + 2 * (len(differences) > 0) + broken + contacts
+    figure, panels = _panels(pictures, len(runs), extent, curves)
     looks = styles([one.family for one in runs], [one.method for one in runs])
     shades = [colour for colour, _ in looks]
-    rows: list[tuple[str, str, list[Floats], list[Floats]]] = [
-        ("displacement", "m", [one.displacement for one in runs], [u for u, _ in differences]),
-        ("von Mises stress", "Pa", [one.stress for one in runs], [s for _, s in differences]),
-    ]
     lines = iter(panels)
-    for words, unit, images, others in rows:
-        limit = _images(next(lines), images, extent, words, unit, None)
-        if compared:
-            first, *row = next(lines)
-            first.set_visible(False)
-            _images(row, others, extent, f"less that of {runs[0].name}", unit, limit)
+    displacements = [one.displacement for one in runs], [u for u, _ in differences]
+    stresses = [one.stress for one in runs], [s for _, s in differences]
+    _field(lines, "displacement", "m", runs[0].name, *displacements, extent)
+    _field(lines, "von Mises stress", "Pa", runs[0].name, *stresses, extent)
     for axes, one, shade in zip(panels[0], runs, shades, strict=True):
-        axes.set_title(one.name, loc="left", fontsize=9, color=shade, fontweight="bold", wrap=True)
+        head = axes.annotate(one.name, (0, 1), (0, 15), "axes fraction", "offset points", wrap=True)
+        head.set(color=shade, fontsize=9, fontweight="bold")
     if broken:
         _cracks(next(lines), runs, shades, extent)
     if contacts:
         _contacts(next(lines), runs, shades, extent)
+    _label_places(panels[:pictures])
     if curves:
         _curves(panels[-1][0], runs, shades, curve)
     if title:
@@ -118,10 +115,9 @@ def _panels(
 
     wide = WIDTH * max(1.0, columns / 3)
     ratio = float((extent[1, 1] - extent[0, 1]) / (extent[1, 0] - extent[0, 0]))
-    # Coordinates and a colour bar lie below each picture.
-    high = float(np.clip(wide / columns * ratio, 0.6, 4.5)) + 1.1
+    high = float(np.clip((wide - BESIDE) / columns * ratio, 0.6, 4.5)) + BETWEEN
     with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(wide, rows * high + 2.6 * curves + 0.4), layout="constrained")
+        figure = Figure(figsize=(wide, rows * high + 2.6 * curves + 0.9), layout="constrained")
         ratios = [high] * rows + [2.6] * curves
         lay = figure.add_gridspec(rows + curves, columns, height_ratios=ratios)
         panels = [[figure.add_subplot(lay[r, c]) for c in range(columns)] for r in range(rows)]
@@ -130,17 +126,38 @@ def _panels(
     return figure, panels
 
 
+def _field(
+    lines: "Iterator[Sequence[Axes]]",
+    words: str,
+    unit: str,
+    first: str,
+    images: Sequence[Floats],
+    others: Sequence[Floats],
+    extent: Floats,
+) -> None:
+    """Draw a field of all runs, and below it, where given, its differences from the first run."""
+    row = next(lines)
+    limit, unit_text = _images(row, images, extent, unit, signed=False)
+    row[0].set_title(label(words, unit_text), loc="left", fontsize=SMALL - 1)
+    if others:
+        corner, *row = next(lines)
+        most, unit_text = _images(row, others, extent, unit, signed=True)
+        share = float(f"{100 * most / limit:.2g}")
+        text = f"{words}\nless that of\n{label(first, unit_text)}\n{share:g} % of the scale above"
+        corner.set_axis_off()
+        told = corner.text(0.5, 0.5, text, transform=corner.transAxes, fontsize=SMALL - 1)
+        told.set(ha="center", va="center")
+
+
 def _images(
     row: "Sequence[Axes]",
     images: Sequence[Floats],
     extent: Floats,
-    words: str,
     unit: str,
-    size: float | None,
-) -> float:
-    """Draw images on one scale, about zero when ``size`` of the fields is given; return its end."""
-    if not images:
-        return 0.0
+    *,
+    signed: bool,
+) -> tuple[float, str]:
+    """Draw images on one scale, about zero where they are signed; return its end and unit."""
     values = np.abs(np.concatenate([image.ravel() for image in images]))
     values = values[np.isfinite(values)]
     limit = float(np.percentile(values, SHARE)) if len(values) else 1.0
@@ -152,29 +169,27 @@ def _images(
             factor * image,
             origin="lower",
             extent=box,
-            cmap="viridis" if size is None else "RdBu_r",
-            vmin=0.0 if size is None else -factor * limit,
+            cmap="RdBu_r" if signed else "viridis",
+            vmin=-factor * limit if signed else 0.0,
             vmax=factor * limit,
             interpolation="nearest",
         )
-        share = "" if not size else f"\n{float(f'{100 * limit / size:.2g}'):g} % of the scale above"
-        bar = axes.figure.colorbar(drawn, ax=axes, orientation="horizontal", shrink=0.9, pad=0.03)
-        bar.set_label(f"{words}  ({unit_text}){share}", fontsize=SMALL - 1)
-        bar.ax.tick_params(labelsize=SMALL - 1.5)
-    _label_places(row)
-    return limit
+    bar = row[-1].figure.colorbar(drawn, cax=row[-1].inset_axes(BAR))
+    bar.ax.tick_params(labelsize=SMALL - 1.5)
+    return limit, unit_text
 
 
-def _label_places(row: "Sequence[Axes]") -> None:
-    """Say where things are: coordinates below each picture, and left of the first of a row."""
-    for number, axes in enumerate(row):
-        axes.tick_params(labelsize=SMALL - 1.5)
-        axes.locator_params(nbins=4)
-        axes.set_xlabel("x  (m)", fontsize=SMALL - 1)
-        if not number:
-            axes.set_ylabel("y  (m)", fontsize=SMALL - 1)
-        for side in ("top", "right"):
-            axes.spines[side].set_visible(False)
+def _label_places(rows: "Sequence[Sequence[Axes]]") -> None:
+    """Say where things are: coordinates left of the first and below the last picture drawn."""
+    for number, row in enumerate(rows):
+        for column, axes in enumerate(row):
+            last, first = number == len(rows) - 1, column == (not row[0].axison)
+            axes.tick_params(labelsize=SMALL - 1.5, labelbottom=last, labelleft=first)
+            axes.locator_params(nbins=4)
+            axes.set_xlabel("x  (m)" if last else "", fontsize=SMALL - 1)
+            axes.set_ylabel("y  (m)" if not column else "", fontsize=SMALL - 1)
+            for side in ("top", "right"):
+                axes.spines[side].set_visible(False)
 
 
 def _cracks(
@@ -223,7 +238,6 @@ def _contacts(
 
 def _frame_pictures(row: "Sequence[Axes]", extent: Floats) -> None:
     """Give pictures of lines the frame of the images above them."""
-    _label_places(row)
     for axes in row:
         axes.set_aspect("equal")
         axes.set(xlim=extent[:, 0], ylim=extent[:, 1])
