@@ -34,8 +34,8 @@ from integration.rules import PointRule, polygon_rule
 from integration.singular import tip_rule
 from nmm.assembly.errors import field_errors
 from nmm.assembly.model import Model
-from nmm.assembly.motion import initial_state
 from nmm.assembly.places import on_edges
+from nmm.assembly.state import initial_state
 from nmm.constraints.imposition import Method
 from nmm.formulation import Solver
 from nmm.model.solver_settings import solver_for

@@ -25,8 +25,8 @@ from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm.assembly.errors import field_errors
 from nmm.assembly.model import Model
-from nmm.assembly.motion import initial_state
 from nmm.assembly.places import on_edges
+from nmm.assembly.state import initial_state
 from nmm.constraints.imposition import Method
 from nmm.formulation import Solver
 from nmm.materials.elastic import Elastic

@@ -7,8 +7,8 @@ from pydantic import Field
 from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats
-from nmm.assembly.motion import State
 from nmm.assembly.places import Place, on_segment
+from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.errors import GeometryError
 from nmm.quantity import Quantity

@@ -8,8 +8,8 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
 from nmm.assembly.places import Place
+from nmm.assembly.state import State
 
 Density = Callable[[Ints, Floats], Floats]
 

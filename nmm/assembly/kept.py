@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 from integration.arrays import Floats
 
 if TYPE_CHECKING:
-    from nmm.assembly.motion import State
+    from nmm.assembly.state import State
 
 T = TypeVar("T")
 

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, move, strain_only, translate
+from nmm.assembly.motion import move, strain_only, translate
+from nmm.assembly.state import State
 
 
 @dataclass(frozen=True)

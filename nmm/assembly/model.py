@@ -19,7 +19,7 @@ from nmm.solvers.unchecked import product
 if TYPE_CHECKING:
     from covers.cutting.cut import Cutting
     from nmm.assembly.finite_strain.finite_matter import FiniteMatter
-    from nmm.assembly.motion import State
+    from nmm.assembly.state import State
 
 
 # Stiffness over inertia, as a share of the body's largest, that is rounding: its square of 1e-16.

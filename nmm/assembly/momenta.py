@@ -7,7 +7,7 @@ from covers.approximation.own_rule import own_rule
 from integration.arrays import Floats
 from integration.plane_vectors import cross
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 
 
 def rigid_masses(model: Model) -> Floats:

@@ -12,7 +12,7 @@ from nmm.frozen import with_parts
 
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
-    from nmm.assembly.motion import State
+    from nmm.assembly.state import State
 
 Entries = tuple[npt.NDArray[Any], npt.NDArray[Any], npt.NDArray[Any]]
 """Values, indices and offsets of a compressed matrix."""

@@ -8,7 +8,7 @@ import shapely
 from covers.approximation.manifold import Manifold
 from integration.arrays import Bools, Floats, Ints
 from integration.segments import segment_rule
-from nmm.assembly.motion import MaterialPoints, material_points
+from nmm.assembly.material_points import MaterialPoints, material_points
 
 # A place is found when it is this close, in sizes of the whole domain: 1e-9 is far above the
 # rounding of coordinates read from text and far below any block.

@@ -14,7 +14,7 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.assembly.tractions.donors import across
 from nmm.constraints.bonded_edges import bonded_stiffness
 from nmm.constraints.imposition import Imposition, Method

@@ -14,8 +14,8 @@ from scipy.sparse import csr_array
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
 from nmm.assembly.places import Place
+from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.constraints.interface import Interface, Triplets
 from nmm.effects.base import Instant

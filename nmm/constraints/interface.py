@@ -8,8 +8,8 @@ from scipy.sparse import csr_array
 
 from covers.approximation.rows import Rows
 from integration.arrays import Bools, Floats, Ints
-from nmm.assembly.motion import State, rotation_matrices
 from nmm.assembly.places import Place
+from nmm.assembly.state import State, rotation_matrices
 from nmm.effects.base import Instant
 
 Triplets = tuple[Ints, Ints, Floats]

@@ -9,7 +9,7 @@ from scipy.sparse import csr_array, diags_array
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, initial_state
+from nmm.assembly.state import State, initial_state
 from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface, Triplets, sparse_rows
 from nmm.constraints.multiplier_space import join, multipliers, pieces_of, traction_degree

@@ -17,7 +17,7 @@ from covers.approximation.rows import row_matrix
 from integration.arrays import Bools, Floats, Ints
 from integration.contraction import contract
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.assembly.tractions.donors import Flux, added_traction, in_global_axes
 from nmm.constraints.imposition import Imposition, Method

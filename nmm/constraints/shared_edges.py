@@ -4,9 +4,10 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from integration.segments import segment_rule
+from nmm.assembly.material_points import material_points
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, initial_state, material_points
 from nmm.assembly.places import Place
+from nmm.assembly.state import State, initial_state
 from nmm.constraints.interface import Interface
 from nmm.contact.detection.joints import Joints, find_joints, joint_points
 from nmm.contact.points.boundary_points import sides

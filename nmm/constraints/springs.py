@@ -7,7 +7,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface, Triplets, product
 

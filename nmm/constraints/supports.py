@@ -9,7 +9,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.constraints.imposition import Imposition, Method, support_method
 from nmm.constraints.interface import Interface, nearest

@@ -15,7 +15,8 @@ from scipy.sparse import csc_array, csr_array, vstack
 from integration.arrays import Floats, Ints
 from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, middle
+from nmm.assembly.motion import middle
+from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.constraints.imposition import Imposition
 from nmm.constraints.interface import joined

@@ -9,7 +9,7 @@ from scipy.sparse import bsr_array, csr_array, eye_array
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, rotation_matrices
+from nmm.assembly.state import State, rotation_matrices
 from nmm.constraints.imposition import Imposition
 from nmm.effects.base import Setup
 from nmm.integrators.base import make_integrator

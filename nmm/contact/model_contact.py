@@ -14,7 +14,7 @@ from scipy.sparse import csr_array
 from covers.change.parentage import Parentage
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.contact.candidates.candidates import Candidates
 from nmm.contact.candidates.held_back import Crossed
 from nmm.contact.detection.narrow_phase import Contacts

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, ClassVar, Self
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.motion import MaterialPoints, State
+from nmm.assembly.material_points import MaterialPoints
+from nmm.assembly.state import State
 from nmm.controls.path_equation import PathEquation
 from nmm.registry import Registry
 

@@ -14,7 +14,7 @@ from scipy.sparse import csr_array
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats, Ints
 from nmm.assembly.kept import KeptOfArray
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.diffusion.carried_field import carried_field
 from nmm.diffusion.course import FieldAt, FieldCourse
 from nmm.diffusion.field_stress import FieldStress

@@ -9,7 +9,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.assembly.applied_forces import AppliedForces
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.dead_loads import DeadLoad
 from nmm.effects.load_factor import load_factor

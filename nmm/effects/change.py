@@ -9,7 +9,7 @@ from covers.change.parentage import Parentage
 from covers.change.transfer import Transfer
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Setup
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Self
 
 from nmm.assembly.applied_forces import AppliedForces
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.contact.model_contact import ModelContact
 from nmm.effects.base import Effect, Setup

@@ -7,7 +7,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 
 # Lever arms of a body's load below this share of its size are rounding.
 EVEN = 1e-12

@@ -8,7 +8,7 @@ import numpy as np
 from integration.arrays import Floats, Ints
 from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.dead_loads import DeadLoad
 

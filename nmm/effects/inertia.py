@@ -10,7 +10,7 @@ from integration.contraction import some
 from nmm.assembly.applied_forces import AppliedForces
 from nmm.assembly.kept import KeptOfStates
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.solvers.unchecked import product
 

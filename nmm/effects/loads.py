@@ -9,8 +9,8 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
 from nmm.assembly.places import Place
+from nmm.assembly.state import State
 from nmm.effects.acting_place import acting_place
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.load_factor import load_factor

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.assembly.motion import State
 from nmm.assembly.places import on_edges
+from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.members.ends import elements_at
 from nmm.effects.motion.reactions import Reactions

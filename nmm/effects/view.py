@@ -9,7 +9,7 @@ from integration.arrays import Floats
 
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
-    from nmm.assembly.motion import State
+    from nmm.assembly.state import State
     from nmm.contact.points.contact_points import ContactPoints
 
 

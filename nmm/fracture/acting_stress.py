@@ -8,7 +8,7 @@ from integration.arrays import Floats
 from integration.rules import PointRule
 from nmm.assembly.errors import stresses
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 
 StressField = Callable[[PointRule], Floats]

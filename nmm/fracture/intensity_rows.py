@@ -9,7 +9,7 @@ import numpy as np
 from integration.arrays import Floats, Ints
 from nmm.assembly.applied_forces import AppliedForces, Density
 from nmm.assembly.model import Model
-from nmm.assembly.motion import Frames
+from nmm.assembly.state import Frames
 from nmm.assembly.stress_points import StressAt
 from nmm.fracture.auxiliary import Auxiliary
 from nmm.fracture.interaction import Field, ForceWeights, Interaction, InteractionWeights, Traction

@@ -9,7 +9,7 @@ from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats
 from nmm.assembly.kept import KeptOfArray
 from nmm.assembly.matter import SWELLING, Matter
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.diffusion.course import FieldCourse
 from nmm.diffusion.field_effect import FieldEffect, course_of
 from nmm.diffusion.from_scene import conductivities, of_elements

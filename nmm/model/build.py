@@ -8,7 +8,7 @@ import numpy as np
 from integration.arrays import Floats, Ints
 from nmm.assembly.kinematics import CLASSICAL, COROTATIONAL, FINITE, SMALL, Kinematics
 from nmm.assembly.model import Model
-from nmm.assembly.motion import initial_state
+from nmm.assembly.state import initial_state
 from nmm.effects.base import Setup
 from nmm.errors import Fault, FormulationError, SceneError
 from nmm.geometry.geometry import Geometry

@@ -7,7 +7,7 @@ import numpy as np
 
 from covers.change.parentage import Parentage
 from nmm.assembly.carried.state import carried
-from nmm.assembly.motion import State, initial_state
+from nmm.assembly.state import State, initial_state
 from nmm.effects.base import Effect, Setup
 from nmm.effects.change import Change
 from nmm.model.planning.making import compile_plan, plan_after

@@ -14,7 +14,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from integration.polygons import Polygons
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Effect, Setup
 from nmm.effects.event import Event
 from nmm.splitting.cuts import Shapes

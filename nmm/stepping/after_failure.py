@@ -4,7 +4,7 @@ from dataclasses import replace
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.formulation import Formulation
 from nmm.integrators.base import make_integrator
 from nmm.progress import Progress

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.formulation import Formulation
 from nmm.stepping.step.stepper import Stepper
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from integration.arrays import Floats
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.formulation import Formulation
 from nmm.progress import Progress
 from nmm.results.frame import Frame, Topology

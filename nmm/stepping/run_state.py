@@ -100,7 +100,7 @@ def _contact_points(run: RunState) -> Iterator["ContactPoints"]:
 
 _PLACES = {
     "integration.polygons": ("Polygons",),
-    "nmm.assembly.motion": ("State", "Frames"),
+    "nmm.assembly.state": ("State", "Frames"),
     "nmm.contact.detection.narrow_phase": ("Contacts",),
     "nmm.contact.detection.face_contacts": ("FaceContacts",),
     "nmm.effects.motion.reactions": ("Reactions",),

@@ -10,7 +10,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.formulation import Formulation, as_tables, formulation_hash
 from nmm.integrators.base import make_integrator
 from nmm.model.build import reshaped

@@ -92,7 +92,7 @@ def fields(run: "Run", points: Floats) -> SampledFields:
 
 
 def _displacement(run: "Run", elements: Ints, points: Floats) -> Floats:
-    from nmm.assembly.motion import material_points
+    from nmm.assembly.material_points import material_points
 
     material = material_points(run.manifold, elements, points)
     return material.place(run.state.frames, run.state.deformation) - points

@@ -7,7 +7,7 @@ import numpy as np
 from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, initial_state
+from nmm.assembly.state import State, initial_state
 from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface
 from nmm.constraints.shared_edges import gauss_interface, shared_edges

@@ -12,8 +12,8 @@ from integration.arrays import Bools, Floats
 from integration.polygons import Polygons
 from nmm.assembly.errors import Field, FieldErrors, field_errors, stresses
 from nmm.assembly.model import Model
-from nmm.assembly.motion import initial_state
 from nmm.assembly.places import Place, at_point, on_edges
+from nmm.assembly.state import initial_state
 from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface
 from nmm.constraints.springs import Springs

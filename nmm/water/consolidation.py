@@ -19,7 +19,7 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm import capacity
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.diffusion.course import FieldAt
 from nmm.diffusion.problem import step_between
 from nmm.effects.base import Instant, Setup

@@ -20,7 +20,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Bools, Floats
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.diffusion.problem import step_between
 from nmm.effects.base import Instant, Setup
 from nmm.effects.change import Change

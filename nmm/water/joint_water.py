@@ -12,7 +12,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.kept import KeptOfInstants, KeptOfPlaces
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.constraints.shared_edges import shared_edges
 from nmm.diffusion.edges import Factor, of_history, steadily
 from nmm.effects.base import Effect, Instant, Setup

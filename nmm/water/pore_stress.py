@@ -13,7 +13,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.assembly.finite_strain.finite_matter import FiniteMatter
 from nmm.assembly.finite_strain.gradients import volumes
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.assembly.stress_points import ISOTROPIC, StressAt
 from nmm.effects.base import Instant, Span, StepForce
 

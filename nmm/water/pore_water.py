@@ -14,8 +14,8 @@ import numpy as np
 
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Bools, Floats, Ints
-from nmm.assembly.motion import State
 from nmm.assembly.places import Place
+from nmm.assembly.state import State
 from nmm.diffusion.course import FieldCourse
 from nmm.diffusion.field_effect import FieldEffect, course_of
 from nmm.diffusion.field_stress import FieldStress

@@ -15,8 +15,8 @@ from covers.cutting.cut_boundary import CutBoundary
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
 from nmm.assembly.places import Place, along_segment, on_parts
+from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 from nmm.effects.load_factor import load_factor
 from nmm.errors import Fault, SceneError

@@ -8,8 +8,9 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from integration.arrays import Floats, Ints
+from nmm.assembly.material_points import MaterialPoints, material_points
 from nmm.assembly.model import Model
-from nmm.assembly.motion import MaterialPoints, State, material_points, rotation_matrices
+from nmm.assembly.state import State, rotation_matrices
 from nmm.constraints.interface import Interface
 from nmm.constraints.shared_edges import gauss_interface
 from nmm.contact.detection.joints import Joints

@@ -56,7 +56,9 @@ def test_a_held_slab_carries_its_weight_to_the_last_digits(
 def test_ways_of_turned_bodies_are_differences_of_places() -> None:
     from dataclasses import replace
 
-    from nmm.assembly.motion import initial_state, move, vertex_points
+    from nmm.assembly.material_points import vertex_points
+    from nmm.assembly.motion import move
+    from nmm.assembly.state import initial_state
 
     found = run(parse_scene(slab(1.0, 1e9, True), "scene"), parse_formulation(""))
     model = found.stepper.model

@@ -17,7 +17,7 @@ from integration.arrays import Floats
 from nmm.assembly.carried.history import carried_history
 from nmm.assembly.carried.rates import CarriedRates
 from nmm.assembly.model import Model
-from nmm.assembly.motion import Frames, State
+from nmm.assembly.state import Frames, State
 
 
 def carried(old: Model, new: Model, kin: Parentage, state: State, declared: State) -> State:

@@ -14,7 +14,7 @@ import numpy as np
 from covers.approximation.ghost import neighbours
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
-from nmm.assembly.motion import Frames
+from nmm.assembly.state import Frames
 from nmm.assembly.stress_points import StressAt
 
 # Share of its largest neighbour below which an element is no donor, and how many neighbours on

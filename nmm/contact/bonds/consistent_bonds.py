@@ -16,7 +16,7 @@ from scipy.sparse import csr_array
 from covers.approximation.rows import row_matrix
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
-from nmm.assembly.motion import Frames
+from nmm.assembly.state import Frames
 from nmm.assembly.stress_points import StressAt
 from nmm.assembly.tractions.average import AverageTraction
 from nmm.assembly.tractions.donors import Flux, added_traction, in_global_axes

@@ -19,7 +19,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array, vstack
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.contact.bonds.consistent_bonds import ConsistentBonds
 from nmm.contact.bonds.turning import counting

@@ -8,7 +8,7 @@ from scipy.sparse import csr_array
 
 from integration.arrays import Bools, Ints
 from integration.contraction import largest
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.contact.candidates.held_back import Crossed, held_back, joined, pushing
 from nmm.contact.candidates.partners import Partners
 from nmm.contact.detection.crossing import Motion, crossings_in, over_seams

@@ -6,7 +6,7 @@ from integration.arrays import Floats, Ints
 from integration.contraction import every, some
 from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.contact.candidates.pairs import GLUED, MISSING, Pairs, no_interface
 from nmm.contact.detection.crossing import Motion, crossings_in, motion_of
 from nmm.contact.detection.narrow_phase import Contacts, find_contacts, with_pairs

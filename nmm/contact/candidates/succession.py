@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from covers.change.parentage import Parentage
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.contact.candidates.candidates import Candidates
 from nmm.contact.laws.contact_laws import Springs
 from nmm.contact.points.bonded_cracks import BondedCracks

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Bools, Floats
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.contact.bonds.tied_step import TiedBonds
 from nmm.contact.following.by_parts import follow
 from nmm.contact.following.path_problem import Bent, PathProblem, PathStep

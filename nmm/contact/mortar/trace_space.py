@@ -15,7 +15,7 @@ import numpy as np
 
 from covers.cutting.cut_boundary import CutBoundary
 from integration.arrays import Bools, Floats, Ints
-from nmm.assembly.motion import material_points
+from nmm.assembly.material_points import material_points
 from nmm.contact.detection.tolerances import ALIKE_COSINE, ALIKE_FINE, KINK
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.welded import WeldedVertices

@@ -11,7 +11,8 @@ from covers.approximation.rows import Rows
 from integration.arrays import Floats, Ints
 from integration.contraction import contract
 from integration.plane_vectors import cross
-from nmm.assembly.motion import MaterialPoints, State
+from nmm.assembly.material_points import MaterialPoints
+from nmm.assembly.state import State
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints
 

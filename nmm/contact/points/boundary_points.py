@@ -14,7 +14,8 @@ import numpy as np
 from covers.approximation.manifold import Manifold
 from covers.approximation.rows import Rows
 from integration.arrays import Floats, Ints
-from nmm.assembly.motion import Frames, MaterialPoints, material_points
+from nmm.assembly.material_points import MaterialPoints, material_points
+from nmm.assembly.state import Frames
 from nmm.contact.detection.surface import Surface
 
 _UPRIGHT = np.zeros(0)

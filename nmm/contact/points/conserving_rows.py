@@ -21,7 +21,8 @@ from scipy.sparse import csr_array
 
 from covers.approximation.rows import Rows, row_matrix
 from integration.arrays import Bools, Floats
-from nmm.assembly.motion import MaterialPoints, State
+from nmm.assembly.material_points import MaterialPoints
+from nmm.assembly.state import State
 from nmm.contact.points.bent_faces import Line, face_lines
 from nmm.contact.points.between_faces import EdgeShares, across
 from nmm.contact.points.boundary_points import Sides, tangents

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from integration.arrays import Floats
-from nmm.assembly.motion import Frames
+from nmm.assembly.state import Frames
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.half_way.mean_motion import MeanMotion

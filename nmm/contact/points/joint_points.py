@@ -11,7 +11,8 @@ from typing import Any, Self
 import numpy as np
 
 from integration.arrays import Floats, Ints
-from nmm.assembly.motion import Frames, MaterialPoints, material_points
+from nmm.assembly.material_points import MaterialPoints, material_points
+from nmm.assembly.state import Frames
 from nmm.contact.detection.tolerances import SAME_ROWS
 from nmm.contact.points.boundary_points import EdgeRows, Sides
 from nmm.contact.points.contact_points import ContactPoints

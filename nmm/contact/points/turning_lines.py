@@ -10,7 +10,7 @@ store.
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.contact.points.between_faces import EdgeShares, across
 from nmm.contact.points.boundary_points import Sides, tangents
 from nmm.contact.points.contact_points import ContactPoints

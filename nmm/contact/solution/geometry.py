@@ -7,7 +7,7 @@ import numpy as np
 from integration.arrays import Floats
 from integration.contraction import contract
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.contact.detection.surface import Surface
 from nmm.contact.mortar.face_means import FaceMeans
 from nmm.contact.mortar.trace_space import TraceSpace

@@ -24,7 +24,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Floats, Ints
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.contact.bonds.consistent_bonds import ConsistentBonds
 from nmm.contact.laws.contact_laws import ContactLaws

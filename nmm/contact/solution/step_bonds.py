@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from integration.arrays import Bools, Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.contact.bonds.consistent_bonds import ConsistentBonds
 from nmm.contact.bonds.tied_step import TiedBonds

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.contact.detection.surface import Surface
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.points.contact_points import ContactPoints, concatenate

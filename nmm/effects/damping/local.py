@@ -16,7 +16,7 @@ from integration.arrays import Floats
 from nmm.assembly.elements import element_matrices
 from nmm.assembly.elements.blocks import Part, assemble
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Effect, Setup
 
 

@@ -10,7 +10,7 @@ from scipy.sparse import csc_array
 from integration.arrays import Floats
 from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.dead_loads import turned
 from nmm.solvers.unchecked import product

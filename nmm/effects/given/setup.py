@@ -8,7 +8,7 @@ import numpy as np
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.kinematics import COROTATIONAL, Kinematics
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.geometry.geometry import Geometry
 
 if TYPE_CHECKING:

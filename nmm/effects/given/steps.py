@@ -7,7 +7,7 @@ from typing import Self
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from integration.arrays import Floats
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change

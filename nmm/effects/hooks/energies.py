@@ -1,6 +1,6 @@
 """Hooks of the energy balance of effects."""
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 
 
 class EnergyHooks:

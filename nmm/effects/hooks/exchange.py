@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.applied_forces import AppliedForces, AppliedForcesIn
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.assembly.stress_points import PressureAt, StressAt
 from nmm.effects.given.steps import Instant
 

@@ -3,7 +3,7 @@
 from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.given.steps import Instant, Span, StepForce
 
 

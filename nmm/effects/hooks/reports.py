@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.quantity import MemberSegments, Quantity
 
 

@@ -14,7 +14,7 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.carried.history import nearest_points
 from nmm.assembly.matter import INITIAL, STRESS, SWELLING, Matter
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressPoints, nearest
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.errors import FormulationError

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Self
 from integration.arrays import Floats, Ints
 from nmm.assembly.matter import Matter
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 from nmm.effects.initial.stress_at_start import StressAtStart
 

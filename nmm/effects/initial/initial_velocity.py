@@ -8,7 +8,7 @@ import numpy as np
 from covers.approximation.manifold import Manifold
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Effect, Setup
 
 # Rows turned by it are turned by 90 degrees, counter-clockwise.

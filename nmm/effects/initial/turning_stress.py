@@ -8,7 +8,7 @@ from integration.arrays import Floats
 from nmm.assembly.finite_strain.finite_matter import finite_matter
 from nmm.assembly.finite_strain.given_stress import GivenStress
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.effects.base import Instant, Span, StepForce
 

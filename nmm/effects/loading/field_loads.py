@@ -9,9 +9,10 @@ import numpy as np
 from integration.arrays import Bools, Floats, Ints
 from integration.rules import polygon_rule
 from nmm.assembly.applied_forces import AppliedForces, joined
+from nmm.assembly.material_points import material_points
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, material_points
 from nmm.assembly.places import Place
+from nmm.assembly.state import State
 from nmm.effects.acting_place import edge_place
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.load_factor import load_factor

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.material_points import MaterialPoints, material_points
 from nmm.assembly.model import Model
-from nmm.assembly.motion import MaterialPoints, State, material_points
 from nmm.assembly.places import on_segment
+from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.load_factor import load_factor
 

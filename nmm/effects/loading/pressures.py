@@ -7,7 +7,7 @@ from scipy.sparse import csc_array, csr_array
 from integration.arrays import Floats
 from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.acting_place import edge_place
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 from nmm.effects.load_factor import load_factor

@@ -8,8 +8,8 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats
-from nmm.assembly.motion import State
 from nmm.assembly.places import Place
+from nmm.assembly.state import State
 from nmm.effects.base import Instant, Span, StepForce
 
 # Clockwise rotation: from the tangent of a surface to its outward normal.

@@ -8,7 +8,7 @@ from scipy.sparse import csc_array, csr_array, diags_array
 from integration.arrays import Floats
 from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.kept import KeptOfStates
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Effect, Setup, Span, StepForce
 from nmm.effects.members.ends import ends_of
 from nmm.effects.members.kept_matrix import LIKE, KeptMatrix

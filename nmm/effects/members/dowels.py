@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from integration.arrays import Floats, Ints
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Setup
 from nmm.effects.members.chains import NONE, Chains
 from nmm.effects.members.crossings import JointsCrossed

@@ -11,8 +11,9 @@ import shapely
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.applied_forces import AppliedForces
 from nmm.assembly.kept import KeptOfPlaces
-from nmm.assembly.motion import Frames, MaterialPoints, State, material_points
+from nmm.assembly.material_points import MaterialPoints, material_points
 from nmm.assembly.places import NEAR
+from nmm.assembly.state import Frames, State
 from nmm.effects.base import Setup
 from nmm.errors import Fault, SceneError
 from nmm.scene.tables.members import GROUND

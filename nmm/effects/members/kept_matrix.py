@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Setup
 from nmm.effects.members.links import LinesOfAction, Links
 

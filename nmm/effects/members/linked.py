@@ -9,7 +9,7 @@ from scipy.sparse import csc_array
 from integration.arrays import Floats, Ints
 from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.kept import KeptOfStates
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 from nmm.effects.members.chains import ChainAnswer
 from nmm.effects.members.kept_matrix import LIKE, KeptMatrix

@@ -15,7 +15,7 @@ from scipy.sparse import csc_array, csr_array, diags_array
 from integration.arrays import Floats, Ints
 from integration.plane_vectors import cross
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.members.ends import MemberEnds
 
 

@@ -8,7 +8,7 @@ from scipy.sparse import csc_array, diags_array
 
 from integration.arrays import Floats
 from nmm.assembly.applied_forces import AppliedForces
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.members.ends import MemberEnds, elements_at, nowhere
 from nmm.errors import FormulationError, SceneError

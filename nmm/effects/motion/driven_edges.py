@@ -7,7 +7,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant
 from nmm.effects.motion.edge_dashpots import EdgeDashpots
 

@@ -8,8 +8,8 @@ from scipy.sparse import bsr_array, csc_array
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
 from nmm.assembly.places import Place
+from nmm.assembly.state import State
 
 if TYPE_CHECKING:
     from nmm.scene.tables.shaking.boundaries import ViscousBoundaryTable

@@ -7,8 +7,9 @@ from typing import Self
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.material_points import MaterialPoints, material_points
 from nmm.assembly.model import Model
-from nmm.assembly.motion import MaterialPoints, State, material_points
+from nmm.assembly.state import State
 
 
 @dataclass(frozen=True)

@@ -14,8 +14,8 @@ from shapely import LineString
 
 from integration.arrays import Bools, Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
 from nmm.assembly.places import NEAR
+from nmm.assembly.state import State
 from nmm.effects.acting_place import edge_place
 from nmm.effects.base import Instant, Setup
 from nmm.effects.members.ends import elements_at

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, ClassVar, Self
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Effect, Setup
 from nmm.effects.event import Event
 from nmm.errors import Fault, FormulationError, SceneError

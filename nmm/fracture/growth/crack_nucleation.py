@@ -9,7 +9,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from integration.rules import PointRule
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.assembly.stress_points import ISOTROPIC, PressureAt, StressAt
 from nmm.effects.base import Setup
 from nmm.effects.event import Event

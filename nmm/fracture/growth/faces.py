@@ -7,8 +7,9 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from integration.plane_vectors import cross
+from nmm.assembly.material_points import MaterialPoints, material_points
 from nmm.assembly.model import Model
-from nmm.assembly.motion import MaterialPoints, State, material_points
+from nmm.assembly.state import State
 from nmm.quantity import ENDS, Quantity
 
 

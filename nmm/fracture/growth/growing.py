@@ -10,7 +10,8 @@ import numpy as np
 
 from integration.arrays import Bools, Floats
 from nmm.assembly.applied_forces import AppliedForcesIn
-from nmm.assembly.motion import MaterialPoints, State, material_points
+from nmm.assembly.material_points import MaterialPoints, material_points
+from nmm.assembly.state import State
 from nmm.assembly.stress_points import PressureAt, StressAt
 from nmm.effects.base import Effect, Setup
 from nmm.effects.event import Event

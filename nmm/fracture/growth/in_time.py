@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from integration.arrays import Bools, Floats
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Instant, Setup
 from nmm.fracture.growth.branching import TWO, Branching
 from nmm.fracture.growth.growing import GrowingCracks

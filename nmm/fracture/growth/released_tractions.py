@@ -18,8 +18,9 @@ from covers.change.relation import Relation
 from integration.arrays import Bools, Floats, Ints
 from integration.rules import PointRule
 from integration.segments import graded_rule
+from nmm.assembly.material_points import MaterialPoints, material_points
 from nmm.assembly.model import Model
-from nmm.assembly.motion import MaterialPoints, State, material_points
+from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.fracture.acting_stress import acting_stress
 

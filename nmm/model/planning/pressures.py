@@ -4,7 +4,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.model.planning.plan import Plan
 
 

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.motion import State, rigid_rates
+from nmm.assembly.motion import rigid_rates
+from nmm.assembly.state import State
 
 if TYPE_CHECKING:
     from nmm.stepping.step.stepper import Stepper

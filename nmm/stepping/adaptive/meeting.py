@@ -14,7 +14,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from integration.arrays import Floats, Ints
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.stepping.step.trial import Attempt
 
 # Share of a step within which bodies meet where it ends; solutions that the root is sought by.

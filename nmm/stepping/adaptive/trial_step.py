@@ -9,7 +9,7 @@ ends as they meet.
 from dataclasses import dataclass
 from math import floor, inf, isinf, log2
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Instant
 from nmm.frozen import with_parts
 from nmm.stepping.adaptive.control import StepChoice, StepControl

@@ -9,7 +9,7 @@ import numpy as np
 from nmm.stepping.audits.table import THRESHOLDS
 
 if TYPE_CHECKING:
-    from nmm.assembly.motion import State
+    from nmm.assembly.state import State
     from nmm.formulation import Formulation
     from nmm.scene.model import Scene
     from nmm.stepping.drive.verdict import RunVerdict

@@ -6,7 +6,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.momenta import momenta_about, own_momenta, rigid_masses
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings, percent
 from nmm.stepping.step.stepper import Stepper
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from nmm.assembly.motion import vertex_points
+from nmm.assembly.material_points import vertex_points
 from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings
 from nmm.stepping.drive.verdict import CONVERGED
 

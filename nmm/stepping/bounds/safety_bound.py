@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from nmm.stepping.bounds.static_theorem import carried
 
 if TYPE_CHECKING:
-    from nmm.assembly.motion import State
+    from nmm.assembly.state import State
     from nmm.stepping.step.stepper import Stepper
 
 # The bound is found to this share of the width that is requested.

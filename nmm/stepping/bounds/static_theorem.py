@@ -13,7 +13,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array, hstack, vstack
 
 from integration.arrays import Floats, Ints
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Instant
 
 if TYPE_CHECKING:

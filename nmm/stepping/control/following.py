@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.controls.base import Control, PathState
 from nmm.controls.events import NextEvent
 from nmm.progress import Progress

@@ -1,6 +1,6 @@
 """Whether a path falls beyond the last load that was solved: a limit point, seen by following."""
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.controls.base import Control
 from nmm.controls.dissipation import Dissipation
 from nmm.controls.events import NextEvent

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 
 if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints

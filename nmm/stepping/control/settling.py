@@ -13,7 +13,7 @@ from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
-    from nmm.assembly.motion import State
+    from nmm.assembly.state import State
     from nmm.contact.points.contact_points import ContactPoints
 
 Correction = Callable[[Attempt], Attempt]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Bools, Floats
-from nmm.assembly.motion import MaterialPoints
+from nmm.assembly.material_points import MaterialPoints
 from nmm.controls.base import PathState
 from nmm.controls.path_equation import PathEquation
 from nmm.stepping.control.locating import TriedStep

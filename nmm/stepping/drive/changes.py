@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from covers.change.parentage import same_elements
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.frozen import with_parts
 from nmm.results.frame import Topology
 from nmm.stepping.reports.monitors import monitors

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Instant
 from nmm.errors import NmmError
 from nmm.frozen import with_parts

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.stepping.bounds.static_theorem import carried
 from nmm.stepping.drive.settling import SettledStep, too_far
 from nmm.stepping.drive.vanishing_stiffness import vanishing_stiffness

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.errors import SolveError
 from nmm.progress import Progress
 from nmm.stepping.drive.changes import AcceptedState, asked, with_events

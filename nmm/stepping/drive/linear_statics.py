@@ -11,8 +11,8 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, initial_state
 from nmm.assembly.places import Place
+from nmm.assembly.state import State, initial_state
 from nmm.constraints.bonded_interfaces import BondedInterfaces, glue_edges
 from nmm.constraints.imposition import Method
 from nmm.constraints.shared_edges import shared_edges

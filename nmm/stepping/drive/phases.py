@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.progress import Progress
 from nmm.stepping.drive.dynamics import run_in_time
 from nmm.stepping.drive.in_time import InTime, Schedule

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Instant
 from nmm.stepping.step.anchors import unopposed
 from nmm.stepping.step.stepper import Stepper

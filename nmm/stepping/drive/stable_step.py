@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.solvers.spectrum import highest
 
 if TYPE_CHECKING:

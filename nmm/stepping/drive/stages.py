@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.frozen import with_parts
 from nmm.geometry.geometry import Geometry
 from nmm.model.staging.stage_geometry import begun_with

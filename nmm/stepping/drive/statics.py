@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.progress import Progress
 from nmm.stepping.drive.changes import AcceptedState, asked, with_events
 from nmm.stepping.drive.evidence import evidence

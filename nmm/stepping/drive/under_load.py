@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Instant
 from nmm.stepping.drive.changes import Asked
 from nmm.stepping.drive.settling import SettledStep

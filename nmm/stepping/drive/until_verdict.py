@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.errors import NmmError, StorageError
 from nmm.stepping.drive.verdict import FAILED, SPENT, RunVerdict
 from nmm.stepping.reports.recorder import Recorder

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import csc_array, diags_array
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.solvers.spectrum import lowest
 
 if TYPE_CHECKING:

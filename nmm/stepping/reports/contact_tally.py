@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.contraction import largest, least
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.frozen import with_parts
 from nmm.stepping.reports.totals import Totals
 from nmm.stepping.step.anchors import block_name

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.view import View
 from nmm.model.planning.pressures import patch_pressures
 from nmm.results.frame import Frame

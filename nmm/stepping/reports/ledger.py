@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.frozen import with_parts
 from nmm.stepping.reports.accounts import EnergyRise, EnergySources
 from nmm.stepping.reports.energies import standing, stored, untouched

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.motion import MaterialPoints, State
+from nmm.assembly.material_points import MaterialPoints
 from nmm.assembly.places import at_point
+from nmm.assembly.state import State
 from nmm.effects.base import Setup
 from nmm.errors import GeometryError
 

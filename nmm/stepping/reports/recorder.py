@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.view import View
 from nmm.frozen import with_parts
 from nmm.results.sink import RESETS, Sink

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.stepping.reports.ledger import Ledger
 from nmm.stepping.reports.lengths import StepLengths
 from nmm.stepping.reports.output import EventWatch

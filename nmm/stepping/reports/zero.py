@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from nmm.assembly.carried.state import carried
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change

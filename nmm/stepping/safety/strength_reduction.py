@@ -22,7 +22,7 @@ from nmm.stepping.safety.tried_factors import TriedFactors
 from nmm.stepping.simulation import Simulation
 
 if TYPE_CHECKING:
-    from nmm.assembly.motion import State
+    from nmm.assembly.state import State
     from nmm.formulation import Formulation
     from nmm.scene.model import Scene
     from nmm.scene.tables.strength_reduction import StrengthReductionTable

@@ -17,7 +17,7 @@ from scipy.sparse import csc_array, diags_array
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 
 if TYPE_CHECKING:
     from nmm.stepping.step.stepper import Stepper

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.contact.detection.tolerances import FURTHER
 from nmm.contact.following.path_solution import PosedPath
 from nmm.contact.solution.request import StepRequest

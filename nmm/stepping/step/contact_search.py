@@ -8,7 +8,8 @@ act elsewhere half way.
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from nmm.assembly.motion import State, middle
+from nmm.assembly.motion import middle
+from nmm.assembly.state import State
 from nmm.contact.candidates.held_back import joined
 from nmm.contact.detection.tolerances import (
     CROSSING_SOLUTIONS,

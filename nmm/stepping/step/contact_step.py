@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.contact.solution.request import StepRequest
 from nmm.frozen import with_parts
 from nmm.model.discretisation import CurrentDiscretisation

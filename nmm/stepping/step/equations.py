@@ -12,7 +12,8 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, coordinate_rounding
+from nmm.assembly.motion import coordinate_rounding
+from nmm.assembly.state import State
 from nmm.effects.base import Instant, defines
 from nmm.frozen import with_parts
 from nmm.integrators.base import Integrator

@@ -7,7 +7,8 @@ from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, strain_only
+from nmm.assembly.motion import strain_only
+from nmm.assembly.state import State
 from nmm.model.discretisation import ModelWithEffects
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.solvers.rigid_apart import ROUNDED, Bodies, RigidSplit, rounding, solve_apart

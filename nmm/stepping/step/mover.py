@@ -9,9 +9,10 @@ from integration.arrays import Floats, Ints
 from integration.contraction import contract, largest
 from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.kinematics import Kinematics
+from nmm.assembly.material_points import vertex_points
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, vertex_points
 from nmm.assembly.motion import move as plainly
+from nmm.assembly.state import State
 from nmm.frozen import with_parts
 from nmm.model.discretisation import CurrentDiscretisation
 from nmm.solvers.linear import Factor, LinearSolver

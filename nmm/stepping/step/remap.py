@@ -14,7 +14,7 @@ from covers.approximation.manifold import Manifold
 from covers.change.parentage import Parentage
 from integration.arrays import Floats
 from integration.polygons import Polygons
-from nmm.assembly.motion import State, initial_frames, initial_state
+from nmm.assembly.state import State, initial_frames, initial_state
 from nmm.effects.change import Change
 from nmm.errors import FormulationError
 from nmm.model.discretisation import Discretisation

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from integration.arrays import Floats
 from nmm.assembly.kinematics import Kinematics
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Instant, Span
 from nmm.errors import SolveError
 from nmm.frozen import with_parts

@@ -7,7 +7,8 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.kinematics import Kinematics
-from nmm.assembly.motion import MaterialPoints, State
+from nmm.assembly.material_points import MaterialPoints
+from nmm.assembly.state import State
 from nmm.effects.base import Instant
 from nmm.integrators.base import Integrator
 from nmm.integrators.starting import rule_of

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.errors import SolveError
 from nmm.frozen import with_parts
 from nmm.stepping.step.booking import BookedWork

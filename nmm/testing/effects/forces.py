@@ -16,7 +16,8 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, strain_only
+from nmm.assembly.motion import strain_only
+from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, defines
 from nmm.frozen import with_parts
 from nmm.testing.claims import claim, close, finite

@@ -7,7 +7,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, defines
 from nmm.quantity import PLACES, Quantity
 from nmm.testing.claims import claim, finite

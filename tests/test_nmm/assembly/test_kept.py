@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from nmm.assembly.kept import KeptOfPlaces, KeptOfStates
-from nmm.assembly.motion import Frames, State
+from nmm.assembly.state import Frames, State
 
 
 def state() -> State:

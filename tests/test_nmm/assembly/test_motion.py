@@ -10,8 +10,10 @@ from covers.approximation.uncut import uncut
 from covers.local_functions.polynomials import LocalFunctions, Monomials, RigidStrain
 from integration.arrays import Floats
 from integration.polygons import Polygons
+from nmm.assembly.material_points import vertex_points
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, initial_state, move, vertex_points
+from nmm.assembly.motion import move
+from nmm.assembly.state import State, initial_state
 from nmm.materials.elastic import Elastic
 
 SQUARE = np.array([[1.0, 1.0], [3.0, 1.0], [3.0, 2.0], [1.0, 2.0]])

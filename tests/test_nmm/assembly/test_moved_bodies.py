@@ -9,7 +9,7 @@ from covers.local_functions.polynomials import LocalFunctions, Monomials, RigidS
 from integration.polygons import Polygons
 from nmm.assembly import motion, moved_bodies
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, initial_frames
+from nmm.assembly.state import State, initial_frames
 from nmm.frozen import with_parts
 from nmm.materials.elastic import Elastic
 

@@ -7,9 +7,9 @@ from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm.assembly.errors import stresses
 from nmm.assembly.model import Model
-from nmm.assembly.motion import initial_state
 from nmm.assembly.places import Place, at_point, on_edges
 from nmm.assembly.recovery import recovered_stress
+from nmm.assembly.state import initial_state
 from nmm.constraints.imposition import Method
 from nmm.constraints.supports import Supports
 from nmm.errors import GeometryError

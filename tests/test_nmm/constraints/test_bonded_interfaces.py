@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from nmm.assembly.motion import initial_state
+from nmm.assembly.state import initial_state
 from nmm.contact.detection.joints import Joints, find_joints
 from nmm.contact.points.boundary_points import sides
 from nmm.errors import FormulationError

@@ -9,8 +9,8 @@ from covers.local_functions.polynomials import Monomials
 from covers.mathematical.triangles import Triangles
 from integration.polygons import Polygons
 from nmm.assembly.model import Model
-from nmm.assembly.motion import initial_state
 from nmm.assembly.places import on_edges
+from nmm.assembly.state import initial_state
 from nmm.constraints.imposition import Method
 from nmm.materials.elastic import Elastic
 from nmm.stepping.drive.linear_statics import hold

@@ -8,7 +8,7 @@ import pytest
 import nmm
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.constraints.imposition import IMPOSITIONS, Imposition, Method
 from nmm.constraints.interface import Interface, Triplets, product
 from nmm.errors import FormulationError

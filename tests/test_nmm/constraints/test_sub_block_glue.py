@@ -8,8 +8,8 @@ from integration.polygons import Polygons
 from integration.rules import polygon_rule
 from nmm.assembly.errors import field_errors, stresses
 from nmm.assembly.model import Model
-from nmm.assembly.motion import initial_state
 from nmm.assembly.places import Place, on_edges
+from nmm.assembly.state import initial_state
 from nmm.constraints.artificial_joints import ArtificialJoints
 from nmm.constraints.imposition import Method
 from nmm.formulation import CoverTable

@@ -10,8 +10,8 @@ from covers.approximation.singular.enrichment import singular_fields
 from covers.local_functions.crack_tip_functions import crack_tip_functions
 from integration.arrays import Bools, Floats
 from integration.polygons import Polygons
-from nmm.assembly.motion import initial_state
 from nmm.assembly.places import at_point, on_edges
+from nmm.assembly.state import initial_state
 from nmm.constraints.imposition import Method
 from nmm.constraints.interface import Interface
 from nmm.constraints.springs import Springs

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import nmm
-from nmm.assembly.motion import vertex_points
+from nmm.assembly.material_points import vertex_points
 from nmm.stepping.prepare import prepare
 from nmm.verification.problems.splitting.pieces import flying_block, moving, split
 

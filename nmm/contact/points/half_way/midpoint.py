@@ -18,8 +18,9 @@ from scipy.sparse import csr_array
 
 from integration.arrays import Floats
 from integration.contraction import contract
+from nmm.assembly.material_points import MaterialPoints
 from nmm.assembly.model import Model
-from nmm.assembly.motion import MaterialPoints, State
+from nmm.assembly.state import State
 from nmm.contact.points.between_faces import EdgeShares
 from nmm.contact.points.boundary_points import Sides, tangents
 from nmm.contact.points.contact_points import ContactPoints

@@ -28,7 +28,8 @@ from covers.approximation.rows import row_matrix
 from integration.arrays import Floats
 from integration.contraction import contract
 from integration.plane_vectors import cross
-from nmm.assembly.motion import Frames, MaterialPoints, State
+from nmm.assembly.material_points import MaterialPoints
+from nmm.assembly.state import Frames, State
 from nmm.contact.points.bent_faces import Line, face_lines
 from nmm.contact.points.between_faces import EdgeShares, across
 from nmm.contact.points.boundary_points import Sides

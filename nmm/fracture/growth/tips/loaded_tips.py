@@ -6,7 +6,7 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 
 # K of a crack along the load, which is zero, over sigma sqrt(pi r) with the mean stress and the

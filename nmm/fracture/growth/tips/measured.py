@@ -7,7 +7,7 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.applied_forces import AppliedForces, AppliedForcesIn, joined
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.effects.base import Setup
 from nmm.fracture.growth.rule import GrowthRule

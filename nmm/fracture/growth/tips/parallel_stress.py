@@ -19,8 +19,9 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.applied_forces import AppliedForces
+from nmm.assembly.material_points import material_points
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, material_points
+from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.fracture.growth.tips.intensities import tip_moduli
 

@@ -14,7 +14,8 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.assembly.kinematics import Kinematics
-from nmm.assembly.motion import State, coordinate_rounding
+from nmm.assembly.motion import coordinate_rounding
+from nmm.assembly.state import State
 from nmm.effects.base import Instant, Span, StepForce, defines
 from nmm.model.discretisation import CurrentDiscretisation
 from nmm.stepping.step.nonlinear.iterate import EffectPart, size

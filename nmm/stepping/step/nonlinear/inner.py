@@ -4,7 +4,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.kinematics import Kinematics
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Instant, Span
 from nmm.integrators.base import Integrator
 from nmm.model.discretisation import CurrentDiscretisation

@@ -8,7 +8,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.assembly.matter import STRESS, SWELLING
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.solvers.unchecked import product
 from nmm.stepping.step.nonlinear.iterate import InternalForcePart, size
 

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.frozen import with_parts
 from nmm.solvers.unchecked import product
 from nmm.stepping.step.clock import Clock

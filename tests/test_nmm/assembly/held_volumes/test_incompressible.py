@@ -9,8 +9,8 @@ from integration.arrays import Floats
 from integration.polygons import Polygons
 from integration.rules import polygon_rule
 from nmm.assembly.errors import field_errors
-from nmm.assembly.motion import initial_state
 from nmm.assembly.places import on_edges
+from nmm.assembly.state import initial_state
 from nmm.constraints.imposition import Method
 from nmm.constraints.supports import Supports
 from nmm.formulation import CoverTable, Formulation, parse_formulation

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nmm.assembly.motion import initial_state
+from nmm.assembly.state import initial_state
 from nmm.contact.mortar.face_means import FaceMeans
 from nmm.contact.mortar.trace_space import TraceSpace
 from nmm.formulation import parse_formulation

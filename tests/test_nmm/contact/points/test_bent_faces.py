@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import nmm
-from nmm.assembly.motion import material_points
+from nmm.assembly.material_points import material_points
 from nmm.contact.points.bent_faces import bent_normals, turned
 from nmm.formulation import parse_formulation
 from nmm.frozen import with_parts

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nmm.assembly.motion import material_points
+from nmm.assembly.material_points import material_points
 from nmm.contact.points.joint_points import JointSites
 from nmm.formulation import parse_formulation
 from nmm.frozen import with_parts

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from covers.approximation.rows import Rows
-from nmm.assembly.motion import Frames, MaterialPoints
+from nmm.assembly.material_points import MaterialPoints
+from nmm.assembly.state import Frames
 from nmm.contact.points.places import places
 
 

@@ -7,7 +7,7 @@ import pytest
 
 import nmm
 from integration.arrays import Floats
-from nmm.assembly.motion import State
+from nmm.assembly.state import State
 from nmm.effects.base import Instant
 from nmm.errors import NmmError
 from nmm.formulation import Formulation, parse_formulation

@@ -1,0 +1,86 @@
+"""Points that move with the material: where they stand, how they move, forces on them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from covers.approximation.manifold import Manifold
+from covers.approximation.rows import Rows
+from integration.arrays import Floats, Ints
+from integration.contraction import contract, some
+from nmm.assembly.state import Frames, State
+
+
+@dataclass(frozen=True)
+class MaterialPoints:
+    """Points that move with the material.
+
+    Attributes
+    ----------
+    body
+        (m,) the body each belongs to.
+    arm
+        (m, 2) reference place from the body's centroid.
+    rows
+        Evaluation rows in body axes.
+    """
+
+    body: Ints
+    arm: Floats
+    rows: Rows
+
+    def place(self, frames: Frames, deformation: Floats) -> Floats:
+        """Return the current place (m, 2)."""
+        local = self.arm + self.rows.apply(deformation)
+        if frames.tilt is not None:
+            across = np.stack([-self.arm[:, 1], self.arm[:, 0]], axis=1)
+            local = local + frames.tilt[self.body, None] * across
+        return frames.centre[self.body] + frames.to_global(self.body, local)
+
+    def way(self, before: State, after: State) -> Floats:
+        """Return the displacement (m, 2) from one state to another (m)."""
+        start = self.place(before.frames, before.deformation)
+        return self.place(after.frames, after.deformation) - start
+
+    def moved(self, frames: Frames, deformation: Floats) -> Floats:
+        """Return the displacement (m, 2) from the reference place, without cancellation."""
+        assert frames.way is not None
+        local = self.rows.apply(deformation)
+        if frames.tilt is not None:
+            across = np.stack([-self.arm[:, 1], self.arm[:, 0]], axis=1)
+            local = local + frames.tilt[self.body, None] * across
+        found = frames.way[self.body] + frames.to_global(self.body, local)
+        if some(frames.angle):
+            found = found + contract("mij,mj->mi", frames.turn[self.body], self.arm)
+        return np.asarray(found)
+
+    def along(self, frames: Frames, directions: Floats) -> Floats:
+        """Rows (m, L) of the motion along global directions (m, 2)."""
+        return self.rows.along(frames.to_body(self.body, directions))
+
+    def push(self, state: State, forces: Floats) -> Floats:
+        """Return the load vector (n,) of forces (m, 2) in global axes (N)."""
+        local = state.frames.to_body(self.body, forces)
+        return self.rows.spread(local, len(state.deformation))
+
+    def work(self, before: State, after: State, force: Floats) -> float:
+        """Return the work (J) of mean forces (m, 2) of a step in global axes (N)."""
+        return float(np.sum(force * self.way(before, after)))
+
+    def take(self, index: Ints) -> "MaterialPoints":
+        """Return some of the points."""
+        return MaterialPoints(self.body[index], self.arm[index], self.rows.take(index))
+
+
+def material_points(manifold: Manifold, elements: Ints, points: Floats) -> MaterialPoints:
+    """Return reference points (m, 2) in elements (m,) as material points."""
+    body = manifold.element_body[elements]
+    return MaterialPoints(
+        body, points - manifold.body_centroid[body], manifold.rows(elements, points)
+    )
+
+
+def vertex_points(manifold: Manifold) -> MaterialPoints:
+    """Return the elements' vertices (P) as material points."""
+    elements = manifold.elements
+    return material_points(manifold, elements.polygon_of_point, elements.points)
