@@ -102,8 +102,8 @@ class ContactSearch:
         return max(2 * motion, FIRST_REACH * self._size)
 
     def turns(self, equations: Equations) -> bool:
-        """Whether bodies turn in a step in time."""
-        return equations.step is not None and self._mover.kinematics.turns
+        """Whether bodies turn in a step with inertia, of which alone velocity and momentum tell."""
+        return equations.inertia is not None and self._mover.kinematics.turns
 
     def candidates(
         self, state: State, reach: float, step: float | None, crossed: "Crossed | None" = None

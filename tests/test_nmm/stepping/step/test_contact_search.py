@@ -16,7 +16,7 @@ def test_a_step_is_solved_again_for_crossings_a_fixed_number_of_times():
     )
     current = SimpleNamespace(plan=SimpleNamespace(contact=contact))
     search = ContactSearch(current, None, 1.0, Clock())
-    statics = SimpleNamespace(step=None, state=None)
+    statics = SimpleNamespace(step=None, state=None, inertia=None)
     sought, again = SoughtContacts(0.1, None, None, None), 0
     while (found := search.again(statics, sought, None, None, motion="seen")) is not None:
         sought, again = found, again + 1
