@@ -38,7 +38,7 @@ class GrowthInTime(GrowingCracks):
         self._law = SPEEDS[self._table.speed or "freund"]
         angle, length = self._table.branching, self._table.branching_length
         self._branching = None if angle is None else Branching(angle, length or 0.0)
-        self._running = RunningTips.at_rest(len(self._fronts), setup.start.time)
+        self._running = RunningTips.begun(len(self._fronts), setup.start.time)
         self._inflow = EnergyInflow.none(len(self._fronts), setup.start.time)
         self._released = ReleasedTractions.none(setup.model)
 
@@ -97,8 +97,9 @@ class GrowthInTime(GrowingCracks):
             model = self._setup.model
             element = nearest_elements(model, born)
             speed = rayleigh_speeds(model, element, tip_moduli(model, element)[0])
-            running = self._running.begun(len(born), float(speed.min()))
-            return running, self._inflow.begun(len(born))
+            new = RunningTips.begun(len(born), self._running.time, float(speed.min()))
+            none = EnergyInflow.none(len(born), self._inflow.time)
+            return self._running.joined(new), self._inflow.joined(none)
         # Where a tip branches, both branches go on at its speed.
         away = np.hypot(*np.moveaxis(born[:, None] - self._points, -1, 0))
         parents = np.argmin(away, axis=1)

@@ -1,19 +1,19 @@
 """The energy that would flow into running tips if they stood still."""
 
-from dataclasses import dataclass, fields, replace
-from typing import Any
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from nmm.fracture.growth.tips.over_fronts import OverFronts
 
 # Largest part of Rayleigh's speed at which the flow at rest is told from that of the running tip.
 FASTEST = 0.9
 
 
 @dataclass(frozen=True)
-class EnergyInflow:
-    """Energy release rates over the fracture energy, arrays (n,) over the fronts.
+class EnergyInflow(OverFronts):
+    """Energy release rates over the fracture energy; see `OverFronts`.
 
     The tip of a model runs in segments, stops and runs on, so that what flows into it rises and
     falls between that of a running tip and that of one at rest. Its mean over a segment is that of
@@ -22,8 +22,6 @@ class EnergyInflow:
 
     Attributes
     ----------
-    time
-        Of the last step (s).
     now
         The rate at that time.
     taken
@@ -34,7 +32,6 @@ class EnergyInflow:
         Of the crack at rest, from the last segment; zero before the first.
     """
 
-    time: float
     now: Floats
     taken: Floats
     since: Floats
@@ -45,11 +42,6 @@ class EnergyInflow:
         """Return that of tips that have not begun to run."""
         zero = np.zeros(number)
         return cls(time, zero, zero, np.full(number, -np.inf), zero)
-
-    @property
-    def arrays(self) -> tuple[Any, ...]:
-        """All attributes."""
-        return tuple(getattr(self, item.name) for item in fields(self))
 
     def after(self, time: float, rate: Floats) -> "EnergyInflow":
         """Return that after a step to ``time``, with the rates (n,) at its end."""
@@ -72,14 +64,3 @@ class EnergyInflow:
         at_rest, taken, since = self.at_rest.copy(), self.taken.copy(), self.since.copy()
         at_rest[front], taken[front], since[front] = known, 0.0, self.time
         return replace(self, at_rest=at_rest, taken=taken, since=since)
-
-    def divided(self, parents: Ints) -> "EnergyInflow":
-        """Return that with branches (k,), which share with their parents what flows in."""
-        each = (np.append(values, values[parents]) for values in self.arrays[1:])
-        return EnergyInflow(self.time, *each)
-
-    def begun(self, number: int) -> "EnergyInflow":
-        """Return that with so many tips that have not begun to run."""
-        new = EnergyInflow.none(number, self.time)
-        pairs = zip(self.arrays[1:], new.arrays[1:], strict=True)
-        return EnergyInflow(self.time, *(np.concatenate(pair) for pair in pairs))

@@ -5,16 +5,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
+from nmm.fracture.growth.tips.over_fronts import OverFronts
 
 
 @dataclass(frozen=True)
-class RunningTips:
-    """Running tips, arrays (n,) over the fronts.
+class RunningTips(OverFronts):
+    """Running tips; see `OverFronts`.
 
     Attributes
     ----------
-    time
-        Of the last step (s).
     way
         How far each has come in its next segment, which is not cut yet (m).
     speed
@@ -25,22 +24,16 @@ class RunningTips:
         How far each has run since it branched while twice the fracture energy flowed in (m).
     """
 
-    time: float
     way: Floats
     speed: Floats
     until: Floats
     fed: Floats
 
     @classmethod
-    def at_rest(cls, number: int, time: float) -> "RunningTips":
-        """Return tips that have not begun to run."""
+    def begun(cls, number: int, time: float, speed: float = 0.0) -> "RunningTips":
+        """Return tips that have run nowhere, of a speed (m/s)."""
         zero = np.zeros(number)
-        return cls(time, zero, zero, np.full(number, -np.inf), zero)
-
-    @property
-    def arrays(self) -> tuple[float, Floats, Floats, Floats, Floats]:
-        """All attributes."""
-        return self.time, self.way, self.speed, self.until, self.fed
+        return cls(time, zero, np.full(number, speed), np.full(number, -np.inf), zero)
 
     def advanced(self, time: float, speed: Floats) -> "RunningTips":
         """Return the tips at a later time (s) at which the law gives the speeds (n,) (m/s)."""
@@ -60,19 +53,9 @@ class RunningTips:
 
     def divided(self, parents: Ints) -> "RunningTips":
         """Return the tips with branches (k,) that run like their parents; ``fed`` starts at 0."""
-        way, speed, until = (
-            np.append(values, values[parents]) for values in (self.way, self.speed, self.until)
-        )
-        fed = np.pad(self.fed, (0, len(parents)))
+        fed = self.fed.copy()
         fed[parents] = 0.0
-        return RunningTips(self.time, way, speed, until, fed)
-
-    def begun(self, number: int, speed: float) -> "RunningTips":
-        """Return the tips with so many new ones of a speed (m/s)."""
-        way, speeds = np.zeros(number), np.full(number, speed)
-        until = np.full(number, -np.inf)
-        pairs = ((self.way, way), (self.speed, speeds), (self.until, until), (self.fed, way))
-        return RunningTips(self.time, *(np.concatenate(pair) for pair in pairs))
+        return OverFronts.divided(replace(self, fed=fed), parents)
 
     def cut(self, front: Ints, length: Floats) -> tuple["RunningTips", Floats]:
         """Return the tips after segments (k,) were cut, and the times (k,) they still take (s).

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -35,9 +35,9 @@ class AnchorPullOut(SceneCase):
     corners of rigid blocks; deviations are those of its tessellations, of which this is none.
     """
 
-    name: ClassVar[str] = "C2"
-    title: ClassVar[str] = "Pull-out of an anchor from a plate of Voronoi blocks"
-    source: ClassVar[str] = "Rigid blocks on brittle springs by another program, 5 tessellations"
+    name = "C2"
+    title = "Pull-out of an anchor from a plate of Voronoi blocks"
+    source = "Rigid blocks on brittle springs by another program, 5 tessellations"
     way: str = "springs"
     sides: bool = True
     blocks: int = 704

@@ -1,8 +1,7 @@
 """A notched concrete beam with a cohesive plane."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -32,13 +31,9 @@ class NotchedBeam(SceneCase):
     way = 6e-4
     mouth = 1e-6
     softening: str = "linear"
+    parameters: ClassVar = {"softening": peaks}
     label = "{0.softening} softening"
     slow = True
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return both softening curves."""
-        return [cls(curve) for curve in cls.peaks]
 
     def scene(self) -> str:
         """Return both halves of the beam, bonded over the notch, which opens by a hair."""

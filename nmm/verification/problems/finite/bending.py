@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -48,12 +48,8 @@ class Elastica(SceneCase):
         5: (0.7137915236, 0.3876283607),
         10: (0.8106090249, 0.5549955978),
     }
+    parameters: ClassVar = {"load": exact}
     label = "P L^2 = {0.load} E I"
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return three loads."""
-        return [cls(load) for load in cls.exact]
 
     def scene(self) -> str:
         """Return a strip of a fiftieth of its length, loaded in one increment."""
@@ -191,12 +187,8 @@ class BuckledColumn(SceneCase):
         60: (1.1517196205, 0.7410196061, 0.5932076462),
         120: (1.8848008690, 0.1231599724, 0.8031709900),
     }
+    parameters: ClassVar = {"tip": exact}
     label = "{0.tip} deg"
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return two loads."""
-        return [cls(tip) for tip in cls.exact]
 
     def scene(self) -> str:
         """Return a column that lies along x."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -36,19 +36,12 @@ class SofteningLayer(SceneCase):
 
     law: str = "mohr_coulomb"
     rows: int = 4
-    name: ClassVar[str] = "PL7"
-    title: ClassVar[str] = "Layer whose cohesion and friction fall in a band"
-    source: ClassVar[str] = "Shear of one row at constant volume, integrated over the share lost"
-    formulations: ClassVar[tuple[str, ...]] = ("bilinear quads",)
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return both laws, with four and with eight rows."""
-        return [cls(law, rows) for law in ("mohr_coulomb", "drucker_prager") for rows in (4, 8)]
-
-    @property
-    def variant(self) -> str:
-        return f"{self.law}, {self.rows} rows"
+    name = "PL7"
+    title = "Layer whose cohesion and friction fall in a band"
+    source = "Shear of one row at constant volume, integrated over the share lost"
+    formulations = ("bilinear quads",)
+    parameters: ClassVar = {"law": ("mohr_coulomb", "drucker_prager"), "rows": (4, 8)}
+    label = "{0.law}, {0.rows} rows"
 
     def formulation(self, scene: "Scene", name: str) -> Formulation:
         """Return cells of one row."""

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -77,19 +77,16 @@ class ObliqueWave(SceneCase):
 
     kind: str = "P"
     degrees: int = 60
-    name: ClassVar[str] = "BM3"
-    title: ClassVar[str] = "Waves that come aslant on a viscous boundary"
-    source: ClassVar[str] = "Lysmer and Kuhlemeyer (1969): balance of plane waves and dashpots"
-    formulations: ClassVar[tuple[str, ...]] = ("manifold degree 2", "quads degree 2", "splines")
+    name = "BM3"
+    title = "Waves that come aslant on a viscous boundary"
+    source = "Lysmer and Kuhlemeyer (1969): balance of plane waves and dashpots"
+    formulations = ("manifold degree 2", "quads degree 2", "splines")
+    label = "{0.kind} at {0.degrees} degrees"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
         """Return waves whose reflections are all plane."""
         return [cls(*one) for one in KNOWN]
-
-    @property
-    def variant(self) -> str:
-        return f"{self.kind} at {self.degrees} degrees"
 
     @cached_property
     def waves(self) -> list[PlaneWave]:

@@ -35,10 +35,10 @@ class BeddedLayer(SceneCase):
     """
 
     field: str = "seepage"
-    name: ClassVar[str] = "WA17"
-    title: ClassVar[str] = "Flow along a confined layer with beds that rise"
-    source: ClassVar[str] = "q = det k / k_yy times the slope along the layer (Bear 1972, 5.6)"
-    formulations: ClassVar[tuple[str, ...]] = (
+    name = "WA17"
+    title = "Flow along a confined layer with beds that rise"
+    source = "q = det k / k_yy times the slope along the layer (Bear 1972, 5.6)"
+    formulations = (
         *("dda", "degree 2", "finite elements", "manifold", "quads", "splines"),
         *("meshless", "manifold degree 2"),
     )

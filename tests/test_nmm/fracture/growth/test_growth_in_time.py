@@ -86,7 +86,7 @@ def test_a_tip_runs_where_what_comes_in_is_what_growth_takes() -> None:
 
 def test_a_tip_takes_the_time_that_its_speed_says_for_every_piece() -> None:
     """At a constant speed: half of it until the piece is cut, half until it is through."""
-    tip, step, cut = RunningTips.at_rest(1, 0.0), 0.01, []
+    tip, step, cut = RunningTips.begun(1, 0.0), 0.01, []
     for number in range(1, 400):
         tip = tip.advanced(number * step, np.array([2.0]))
         if tip.way[0] >= 0.5:

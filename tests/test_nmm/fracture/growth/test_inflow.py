@@ -42,4 +42,4 @@ def test_a_tip_into_which_nothing_flows_over_a_piece_stops() -> None:
 def test_branches_go_on_with_what_their_tip_had() -> None:
     tip = EnergyInflow.none(1, 0.0).after(1.0, np.array([2.5])).cut(FIRST, PIECE, BOUND)
     assert tip.divided(FIRST).driving == pytest.approx([2.5, 2.5])
-    assert tip.begun(1).driving == pytest.approx([2.5, 0.0])
+    assert tip.joined(EnergyInflow.none(1, tip.time)).driving == pytest.approx([2.5, 0.0])
