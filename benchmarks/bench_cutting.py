@@ -11,7 +11,7 @@ import shapely
 from covers.cutting.cut import cut
 from covers.mathematical.base import Cover
 from covers.mathematical.bspline import BSplines
-from covers.mathematical.moving_least_squares import MovingLeastSquares
+from covers.mathematical.meshless.moving_least_squares import MovingLeastSquares
 from covers.mathematical.quads import Quads
 from covers.mathematical.triangles import Triangles
 from integration.polygons import Polygons

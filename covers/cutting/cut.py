@@ -2,7 +2,7 @@
 
 All lines (edges of the cells that are touched, boundaries of regions, cracks) are put into one
 plane graph, in which points within 2^-46 of the model's extent are one
-(`covers.cutting.resolution`, `covers.cutting.snap_rounding`). Everything after that is topology:
+(`covers.cutting.resolution`, `covers.cutting.plane_graph`). Everything after that is topology:
 faces are elements, shared edges connect them, and physical covers are connected components (Shi
 1991; Terada, Asai and Yamagishi 2003). Nothing is decided by comparing lengths or areas. Cells that
 no line touches keep their shape.

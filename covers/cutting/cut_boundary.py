@@ -8,8 +8,8 @@ import numpy as np
 
 from covers.concatenate import numbers
 from covers.cutting.boundary import BoundaryEdges
-from covers.cutting.faces import Faces
 from covers.cutting.pieces import Pieces, joined_sides, neighbours
+from covers.cutting.plane_graph.faces import Faces
 from integration.arrays import Bools, Floats, Ints
 
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from covers.cutting.connectivity import Joins
-from covers.cutting.faces import Cells, Faces
-from covers.cutting.half_edges import walks
+from covers.cutting.plane_graph.faces import Cells, Faces
+from covers.cutting.plane_graph.half_edges import walks
 from covers.mathematical.base import Cover
 from integration.arrays import Bools, Floats, Ints
 from integration.permutations import inverse

@@ -11,7 +11,7 @@ COVERS = {
     "quads": "covers.mathematical.quads:Quads",
     "graded": "covers.mathematical.graded:Graded",
     "bspline": "covers.mathematical.bspline:BSplines",
-    "mls": "covers.mathematical.moving_least_squares:MovingLeastSquares",
+    "mls": "covers.mathematical.meshless.moving_least_squares:MovingLeastSquares",
 }
 
 

@@ -40,8 +40,8 @@ class ElasticSolid(Solid):
         """Pressures of materials that resist volume much more than shear; None without any.
 
         Where the volume is resisted in every point they serve edges alone
-        (`nmm.constraints.volume_lift`) and are of the degree of the strains, which are held exactly
-        where they are polynomials.
+        (`nmm.constraints.nitsche.volume_lift`) and are of the degree of the strains, which are held
+        exactly where they are polynomials.
 
         Raises
         ------

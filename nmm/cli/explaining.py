@@ -21,7 +21,7 @@ def told(place: Path, given: "Formulation | None", cost: bool) -> None:
     """Print what a scene simulates under a formulation, its own where none is ``given``."""
     import nmm
     from nmm.formulation import Formulation
-    from nmm.model.tips import tip_lines
+    from nmm.model.manifolds.tips import tip_lines
     from nmm.stepping.prepare import prepare
 
     scene = nmm.read_scene(place)

@@ -13,7 +13,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface
-from nmm.constraints.linear_matter import check_linear
+from nmm.constraints.nitsche.linear_matter import check_linear
 from nmm.constraints.shared_edges import gauss_interface, joint_interface, shared_edges
 from nmm.constraints.springs import Springs
 from nmm.constraints.tied_interfaces import TiedInterfaces

@@ -19,8 +19,8 @@ from nmm.assembly.tractions.donors import across
 from nmm.constraints.bonded_edges import bonded_stiffness
 from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface, nearest
-from nmm.constraints.linear_matter import method_for
-from nmm.constraints.nitsche import Nitsche
+from nmm.constraints.nitsche.linear_matter import method_for
+from nmm.constraints.nitsche.nitsche import Nitsche
 from nmm.constraints.shared_edges import EDGE_ORDER, gauss_interface, shared_edges
 from nmm.constraints.springs import Springs, glue_stiffness, joint_springs
 from nmm.constraints.tied_interfaces import TiedInterfaces

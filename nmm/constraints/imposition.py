@@ -125,7 +125,7 @@ IMPOSITIONS: Registry[type[Imposition]] = Registry(
     {
         "penalty": "nmm.constraints.springs:Springs",
         "spring": "nmm.constraints.springs:Springs",
-        "nitsche": "nmm.constraints.nitsche:Nitsche",
+        "nitsche": "nmm.constraints.nitsche.nitsche:Nitsche",
         "lagrange": "nmm.constraints.multipliers:Multipliers",
     },
 )

@@ -13,12 +13,12 @@ from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.constraints.imposition import Imposition, Method, support_method
 from nmm.constraints.interface import Interface, nearest
-from nmm.constraints.linear_matter import method_for
-from nmm.constraints.nitsche import Nitsche
+from nmm.constraints.nitsche.linear_matter import method_for
+from nmm.constraints.nitsche.nitsche import Nitsche
+from nmm.constraints.nitsche.volume_lift import sharing
 from nmm.constraints.springs import Springs
 from nmm.constraints.tied_interfaces import TiedInterfaces
 from nmm.constraints.turned_axes import turning
-from nmm.constraints.volume_lift import sharing
 from nmm.effects.acting_place import acting_place
 from nmm.effects.base import Instant, Setup
 from nmm.effects.motion.ground import Ground

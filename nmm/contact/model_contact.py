@@ -104,7 +104,7 @@ class ModelContact:
         from nmm.contact.solution.driver import ContactSolver
 
         enforcement, compliance = self._parts.enforcement, self.momentum.compliance
-        return ContactSolver.of(self.model, self.laws, enforcement, compliance)
+        return ContactSolver(self.model, self.laws, enforcement, compliance)
 
     @cached_property
     def steps(self) -> "ContactSteps":

@@ -13,9 +13,9 @@ from nmm.effects.base import Setup
 from nmm.errors import Fault, FormulationError, SceneError
 from nmm.geometry.geometry import Geometry
 from nmm.materials.base import MATERIAL_LAWS, Law
-from nmm.model.covering import local_functions
-from nmm.model.enriching import with_growing_tips, without_opened_corners
 from nmm.model.from_polygons import BlockMatter, covered
+from nmm.model.manifolds.covering import local_functions
+from nmm.model.manifolds.enriching import with_growing_tips, without_opened_corners
 
 if TYPE_CHECKING:
     from covers.cutting.cut import Cutting

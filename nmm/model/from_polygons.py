@@ -14,7 +14,7 @@ from nmm.formulation import CoverTable
 from nmm.geometry.blocks import Regions
 from nmm.geometry.geometry import Geometry
 from nmm.materials.base import Law
-from nmm.model.covering import Covering, cell_sizes, cover_regions
+from nmm.model.manifolds.covering import Covering, cell_sizes, cover_regions
 
 if TYPE_CHECKING:
     from covers.cutting.cut import Cutting

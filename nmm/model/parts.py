@@ -147,11 +147,11 @@ def _control(part: Any) -> None:
 def _cover(part: Any) -> None:
     from covers.local_functions.polynomials import FUNCTIONS
     from nmm.geometry.tessellation.cover_types import COVER_TYPES, block_cover
-    from nmm.model.several_meshes import net_class
+    from nmm.model.manifolds.several_meshes import net_class
 
     _known("functions", part.functions, [*FUNCTIONS])
     if part.degree is not None or part.functions == "monomials":
-        from nmm.model.covering import local_functions
+        from nmm.model.manifolds.covering import local_functions
 
         local_functions(part)
     if ":" not in part.type:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from nmm.model.locking import locking
-from nmm.model.tips import tip_warnings
+from nmm.model.manifolds.tips import tip_warnings
 from nmm.solvers.linear import LinearSolver, make_solver
 
 if TYPE_CHECKING:

@@ -162,7 +162,7 @@ def _covers(run: RunData, scene: "Scene", path: Path) -> bool:
     """Lay the covers of a stored run again and draw them; blocks have none to draw."""
     from nmm.formulation import parse_formulation
     from nmm.geometry import regions
-    from nmm.model.covering import cover_regions
+    from nmm.model.manifolds.covering import cover_regions
 
     text: str = getattr(run, "formulation", "")
     cover = parse_formulation(text).cover.model_copy(update={"enrichment": None})

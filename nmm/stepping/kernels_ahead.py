@@ -20,8 +20,8 @@ from nmm.compiled.store import kept
 from nmm.contact.enforcement.penalty import Penalty
 from nmm.contact.islands.partition import Islands
 from nmm.contact.islands.warm_start import start_from
-from nmm.contact.iteration import compiled_newton
-from nmm.contact.iteration.modified_newton import ModifiedNewton
+from nmm.contact.iteration.newton import compiled_newton
+from nmm.contact.iteration.newton.modified_newton import ModifiedNewton
 from nmm.contact.problem.contact_state import ContactState
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.contact.problem.step_problem import StepProblem

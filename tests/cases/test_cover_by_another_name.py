@@ -4,7 +4,7 @@ import pytest
 
 import nmm
 from covers.mathematical.bspline import BSplines
-from covers.mathematical.moving_least_squares import MovingLeastSquares
+from covers.mathematical.meshless.moving_least_squares import MovingLeastSquares
 from covers.mathematical.quads import Quads
 from covers.mathematical.triangles import Triangles
 from nmm.formulation import parse_formulation

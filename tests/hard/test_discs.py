@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from covers.cutting.cut import cut
-from covers.mathematical.disc_supports import fitted_discs, shares
-from covers.mathematical.moving_least_squares import MovingLeastSquares
+from covers.mathematical.meshless.disc_supports import fitted_discs, shares
+from covers.mathematical.meshless.moving_least_squares import MovingLeastSquares
 from integration.polygons import Polygons
 from nmm.errors import FormulationError
 from nmm.formulation import parse_formulation

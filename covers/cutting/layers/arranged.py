@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from covers.cutting.closures import closed_faces
 from covers.cutting.cut_boundary import boundary_of
 from covers.cutting.cut_cells import Layer
 from covers.cutting.domain import Segments
-from covers.cutting.faces import BOUNDARY, CRACK, MESH, Cells, Sources
 from covers.cutting.layers.lines import mesh_segments
 from covers.cutting.pieces import joins_of, pieces_of
+from covers.cutting.plane_graph.closures import closed_faces
+from covers.cutting.plane_graph.faces import BOUNDARY, CRACK, MESH, Cells, Sources
+from covers.cutting.plane_graph.snap_rounding import lines_between, node
 from covers.cutting.resolution import Resolution
-from covers.cutting.snap_rounding import lines_between, node
 from covers.mathematical.base import Cover
 from integration.arrays import Ints
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from covers.cutting.cracks import clipped, settled
 from covers.cutting.domain import Domain, Segments
-from covers.cutting.faces import Cells
+from covers.cutting.plane_graph.faces import Cells
 from covers.cutting.resolution import Resolution
 from covers.cutting.touched_cells import region_of_cells, touched_cells
 from covers.mathematical.base import Cover

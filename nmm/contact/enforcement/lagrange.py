@@ -8,6 +8,7 @@ from scipy.sparse import block_array, csc_array, csr_array, diags_array
 
 from integration.arrays import Floats
 from nmm.contact.enforcement.iterative import ExactEnforcement
+from nmm.contact.enforcement.open_close import ActiveSet, changes, first_active_set
 from nmm.contact.iteration.exact import exact_round
 from nmm.contact.iteration.interior_point import Goal
 from nmm.contact.iteration.multiplier_rounds import (
@@ -16,7 +17,6 @@ from nmm.contact.iteration.multiplier_rounds import (
     measured,
     stiff_springs,
 )
-from nmm.contact.iteration.open_close import ActiveSet, changes, first_active_set
 from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.coulomb import frictionless, shear_bound
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult

@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.iteration.open_close import (
+from nmm.contact.enforcement.open_close import (
     ActiveSet,
     changes,
     first_active_set,

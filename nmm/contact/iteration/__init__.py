@@ -1,5 +1,5 @@
 """The iterative methods for the contact problem of a step.
 
-Semismooth and modified Newton, open-close, interior point, rounds of multipliers. They know springs
+Interior point, rounds of multipliers, and Newton's method (`newton`). They know springs
 and limits, no geometry and no interface law.
 """

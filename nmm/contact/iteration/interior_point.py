@@ -16,7 +16,7 @@ import numpy as np
 
 from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
 from nmm.contact.iteration.interior_equations import Linearised
-from nmm.contact.iteration.semismooth_newton import polish
+from nmm.contact.iteration.newton.semismooth_newton import polish
 from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.cut_springs import IterationResult
 from nmm.errors import SolveError

@@ -18,7 +18,7 @@ from integration.arrays import Bools, Floats
 from nmm.contact.detection.surface import Surface
 from nmm.contact.points.boundary_points import tangents
 from nmm.contact.points.contact_points import ContactPoints
-from nmm.contact.points.continued.tracking import RigidSplit
+from nmm.contact.points.continued.tracking import Apart
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ class JointFaces:
 
     surface: Surface
     length: Floats
-    apart: RigidSplit
+    apart: Apart
 
     def normal(self, points: ContactPoints) -> Floats:
         """Unit normals (m, 2) of the lines between faces, from b to a."""

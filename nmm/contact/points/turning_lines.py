@@ -37,7 +37,11 @@ def line_turns(
         rows = sides.turns(edge)[:, :, :width]
         local = state.frames.to_body(sides.start.body[edge], normal)
         turn[:, k, : rows.shape[2]] = share / stretch * np.einsum("mcl,mc->ml", rows, local)
-    apart = _apart(contacts, joints, sides, state, sites)
+    if sites is None:
+        one, other = (sides.at(*side).place(*place) for side in joints.sides)
+        apart = np.asarray(one - other)
+    else:
+        apart = sites.apart(contacts, *place)[at] if sites.whole else sites.apart(joints, *place)
     levers = (np.einsum("ij,ij->i", apart, axis)[:, None] for axis in (tangents(normal), -normal))
     gained = [lever * turn.reshape(len(at), -1) for lever in levers]
 
@@ -46,20 +50,3 @@ def line_turns(
         tangent_rows[at] += gained[1]
 
     return add
-
-
-def _apart(
-    contacts: ContactPoints,
-    joints: ContactPoints,
-    sides: Sides,
-    state: State,
-    sites: JointSites | None,
-) -> Floats:
-    """Where sides a of joints are from their sides b (k, 2)."""
-    place = state.frames, state.deformation
-    if sites is None:
-        one, other = (sides.at(*side).place(*place) for side in joints.sides)
-        return np.asarray(one - other)
-    if sites.whole:
-        return sites.apart(contacts, *place)[contacts.is_joint]
-    return sites.apart(joints, *place)

@@ -1,7 +1,6 @@
 """How far a step is out of balance, in a norm that mixes no units."""
 
 import numpy as np
-from scipy.sparse import csc_array, diags_array
 
 from integration.arrays import Floats
 from nmm.contact.problem.step_problem import StepProblem
@@ -25,11 +24,3 @@ def relative_residual(
 def length(vector: Floats) -> float:
     """Euclidean norm, without the threads that BLAS starts for long vectors."""
     return float(np.sqrt(np.einsum("i,i->", vector, vector)))
-
-
-def with_springs(problem: StepProblem, normal: Floats, shear: Floats) -> csc_array:
-    """``matrix + Gn^T diag(normal) Gn + Gt^T diag(shear) Gt`` by sparse products."""
-    total = problem.matrix
-    for rows, stiffness in ((problem.normal_rows, normal), (problem.tangent_rows, shear)):
-        total = total + rows.T @ (diags_array(stiffness) @ rows)
-    return csc_array(total)

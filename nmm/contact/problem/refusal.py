@@ -1,16 +1,23 @@
 """What is wrong with a contact problem that no enforcement could make sense of, by name."""
 
-from typing import TYPE_CHECKING, Any
+import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from integration.arrays import Bools, Floats
+from integration.arrays import Floats
+from nmm.compiled import compiled
 from nmm.errors import SolveError
 
 if TYPE_CHECKING:
     from nmm.contact.problem.step_problem import StepProblem
 
-LISTED = ("slip", "normal_stiffness", "shear_stiffness", "normal_force", "shear_force", "state")
+MATRICES, STIFFNESSES = (
+    ("matrix", "normal_rows", "tangent_rows"),
+    ("normal_stiffness", "shear_stiffness"),
+)
+COLUMNS = ("gap", "slip", *STIFFNESSES, "state", "normal_force", "shear_force")
+"""What a problem has of each contact beside its rows, limits and whose stiffness it is."""
 
 
 def refuse(problem: "StepProblem") -> None:
@@ -21,41 +28,64 @@ def refuse(problem: "StepProblem") -> None:
     SolveError
         Naming the first array at fault.
     """
-    limits = vars(problem.limits)
-    columns = {name: getattr(problem, name) for name in LISTED} | limits
-    _sizes(problem, columns)
-    finite = {"matrix": problem.matrix.data, "force": problem.force, "gap": problem.gap}
-    finite |= {name: getattr(problem, name).data for name in ("normal_rows", "tangent_rows")}
-    finite |= {name: columns[name] for name in ("slip", "friction", *LISTED[1:3])}
+    n, m, limits = len(problem.force), len(problem.gap), vars(problem.limits)
+    matrices = {name: getattr(problem, name) for name in MATRICES}
+    columns = {name: getattr(problem, name) for name in COLUMNS} | limits
+    for name, expected in zip(MATRICES, ((n, n), (m, n), (m, n)), strict=True):
+        if matrices[name].shape != expected:
+            raise SolveError(f"contact problem: {name} {matrices[name].shape}: expected {expected}")
+    for name, column in columns.items():
+        if len(column) != m:
+            raise SolveError(f"contact problem: {name} {column.shape}: expected ({m},)")
+    finite = {name: one.data for name, one in matrices.items()} | {"force": problem.force}
+    held = (columns[name] for name in ("gap", "slip", *STIFFNESSES, *limits))
+    if sound(*finite.values(), *held):
+        return
+    finite |= {name: columns[name] for name in ("gap", "slip", "friction", *STIFFNESSES)}
     for name, array in finite.items():
-        at = _first(np.isfinite(array))
-        if at is not None:
+        if not np.isfinite(array).all():
+            at = int(np.isfinite(array).argmin())
             raise SolveError(
                 f"contact problem: {name}[{at}] = {array[at]}: expected finite numbers: "
                 "check loads and stiffnesses, or shorten the step"
             )
-    positive = {name: columns[name] > 0 for name in LISTED[1:3]}
-    for name, good in (positive | {name: one >= 0 for name, one in limits.items()}).items():
-        at = _first(good)
-        if at is not None:
+    for name in (*STIFFNESSES, *limits):
+        good = columns[name] > 0 if name in STIFFNESSES else columns[name] >= 0
+        if not good.all():
+            at = int(good.argmin())
             raise SolveError(
                 f"contact problem: {name} of contact {at}: {columns[name][at]}: "
                 "expected a positive number (limits may be 0)"
             )
 
 
-def _sizes(problem: "StepProblem", columns: dict[str, Floats]) -> None:
-    n, m = len(problem.force), problem.n_contacts
-    sizes: dict[str, tuple[Any, Any]] = {"matrix": (problem.matrix.shape, (n, n))}
-    for name in ("normal_rows", "tangent_rows"):
-        sizes[name] = (getattr(problem, name).shape, (m, n))
-    sizes |= {name: (np.shape(column), (m,)) for name, column in columns.items()}
-    for name, (found, expected) in sizes.items():
-        if found != expected:
-            raise SolveError(f"contact problem: {name} {found}: expected {expected}")
+@compiled
+def sound(
+    matrix: Floats,
+    normal_rows: Floats,
+    tangent_rows: Floats,
+    force: Floats,
+    gap: Floats,
+    slip: Floats,
+    normal: Floats,
+    shear: Floats,
+    tension: Floats,
+    cohesion: Floats,
+    friction: Floats,
+) -> bool:
+    """Whether all numbers are finite, stiffnesses positive and limits not negative."""
+    good = _finite(matrix) and _finite(normal_rows) and _finite(tangent_rows) and _finite(force)
+    for c in range(len(gap)):
+        # What is no number is neither.
+        good &= math.isfinite(gap[c]) and math.isfinite(slip[c]) and 0.0 <= friction[c] < math.inf
+        good &= 0.0 < normal[c] < math.inf and 0.0 < shear[c] < math.inf
+        good &= tension[c] >= 0.0 and cohesion[c] >= 0.0
+    return good
 
 
-def _first(good: Bools) -> int | None:
-    """Number of the first entry at fault; None without any."""
-    bad = np.flatnonzero(~good)
-    return int(bad[0]) if len(bad) else None
+@compiled
+def _finite(numbers: Floats) -> bool:
+    good = True
+    for number in numbers:
+        good &= math.isfinite(number)
+    return good

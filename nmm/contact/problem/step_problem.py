@@ -14,6 +14,7 @@ from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Bools, Floats, Ints, same
 from nmm.contact.problem.contact_state import ContactState
+from nmm.contact.problem.refusal import COLUMNS, refuse
 from nmm.contact.problem.residual_kernel import weighted
 from nmm.contact.problem.row_products import Compressed, along, compressed
 from nmm.frozen import MadeOnce
@@ -21,10 +22,6 @@ from nmm.interfaces.limits import Limits as Limits
 from nmm.solvers.known import known_load
 
 OPEN, STICK, SLIDE, BONDED, BROKEN = ContactState
-
-# What a problem has of each contact beside its rows, limits and whose stiffness it is.
-STIFFNESSES, FORCES = ("normal_stiffness", "shear_stiffness"), ("normal_force", "shear_force")
-COLUMNS = ("gap", "slip", *STIFFNESSES, "state", *FORCES)
 
 
 @dataclass(frozen=True)
@@ -144,24 +141,6 @@ class StepProblem:
         inner = self.matrix @ increment - self.force
         return np.asarray(inner + self.normal_rows.T @ normal + self.tangent_rows.T @ shear)
 
-    @property
-    def _is_sound(self) -> bool:
-        """Whether `check` has nothing to say, asked without what it would name."""
-        from nmm.contact.problem.soundness import sound
-
-        m, n, limits = len(self.gap), len(self.force), self.limits
-        matrix, normal, tangent = self.matrix, self.normal_rows, self.tangent_rows
-        shaped = normal.shape == tangent.shape == (m, n) and matrix.shape == (n, n)
-        return shaped and sound(
-            self.force,
-            (matrix.data, normal.data, tangent.data),
-            (self.gap, self.slip),
-            (self.normal_stiffness, self.shear_stiffness),
-            (limits.tension, limits.cohesion, limits.friction),
-            (self.normal_force, self.shear_force),
-            self.state,
-        )
-
     def check(self) -> None:
         """Refuse shapes and numbers that no enforcement could make sense of.
 
@@ -170,10 +149,7 @@ class StepProblem:
         SolveError
             Naming the first array at fault.
         """
-        if not self._is_sound:
-            from nmm.contact.problem.refusal import refuse
-
-            refuse(self)
+        refuse(self)
 
 
 @dataclass(frozen=True)

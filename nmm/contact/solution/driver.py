@@ -11,7 +11,7 @@ from functools import partial
 import numpy as np
 from scipy.sparse import csc_array
 
-from integration.arrays import Bools, Floats, Ints
+from integration.arrays import Bools, Floats
 from integration.contraction import some
 from nmm.assembly.model import Model
 from nmm.contact.bonds.release import LoadedContacts, released, tied_energy
@@ -23,7 +23,6 @@ from nmm.contact.laws.failing_bonds import break_bonds, breaking
 from nmm.contact.laws.history_iteration import HistoryIteration
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.contact_rows import ContactRows
-from nmm.contact.problem.balance import with_springs
 from nmm.contact.problem.coulomb import shear_bound
 from nmm.contact.problem.step_problem import SLIDE, StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform, solve_through
@@ -51,37 +50,25 @@ class ContactSolver:
 
     Parameters
     ----------
-    posing
-        Sets up the problem of a step.
+    model, laws
+        What is in contact, and by which laws.
     enforcement
         Solves the problem.
-    unknown_body
-        (n,) body of each unknown.
+    compliance
+        (3 B,) of the bodies as a whole.
     """
 
     def __init__(
-        self,
-        posing: Posing,
-        enforcement: Enforcement,
-        unknown_body: Ints,
+        self, model: Model, laws: ContactLaws, enforcement: Enforcement, compliance: Floats
     ) -> None:
-        self.memory = enforcement.memory()
-        self.last: tuple[StepProblem, StepAnswer] | None = None
-        self.untouched = StepsWithoutContacts()
-        self._laws, self._posing = posing.laws, posing
-        self._enforcement, self._unknown_body = enforcement, unknown_body
-
-    @classmethod
-    def of(
-        cls, model: Model, laws: ContactLaws, enforcement: Enforcement, compliance: Floats
-    ) -> "ContactSolver":
-        """Return the solver of a model; ``compliance`` (3 B,) is that of its bodies as a whole."""
         manifold = model.manifold
         mass = RigidMass(manifold.boundary.body, manifold.rigid_modes, compliance)
         softness = model.modulus[manifold.boundary.element] / model.modulus.max()
-        return cls(
-            Posing(laws, softness, mass, enforcement.exact), enforcement, manifold.unknown_body
-        )
+        self.memory = enforcement.memory()
+        self.last: tuple[StepProblem, StepAnswer] | None = None
+        self.untouched = StepsWithoutContacts()
+        self._laws, self._posing = laws, Posing(laws, softness, mass, enforcement.exact)
+        self._enforcement, self._unknown_body = enforcement, manifold.unknown_body
 
     def forget(self) -> None:
         """Drop what is kept for speed alone, and the last problem with its answer."""
@@ -184,11 +171,9 @@ class ContactSolver:
         closed = answer.normal_force != 0
         bound = shear_bound(answer.normal_force, closed, problem.limits)
         held = closed & (answer.state != SLIDE) & (bound > 0)
-        return with_springs(
-            problem,
-            np.where(closed, problem.normal_stiffness, 0.0),
-            np.where(held, problem.shear_stiffness, 0.0),
-        )
+        normal = np.where(closed, problem.normal_stiffness, 0.0)
+        shear = np.where(held, problem.shear_stiffness, 0.0)
+        return self.memory.pattern_of(problem).matrix(problem, normal, shear)
 
     def condition(self, solver: LinearSolver) -> float | None:
         """Estimate the condition number of the last system with the springs that acted in it."""

@@ -13,7 +13,7 @@ from covers.cutting.cut import cut
 from covers.local_functions.polynomials import Kinds, Monomials, Rigid, RigidStrain
 from covers.mathematical.base import Cover
 from covers.mathematical.bspline import BSplines
-from covers.mathematical.moving_least_squares import MovingLeastSquares
+from covers.mathematical.meshless.moving_least_squares import MovingLeastSquares
 from covers.mathematical.quads import Quads
 from covers.mathematical.triangles import Triangles
 from integration.polygons import Polygons

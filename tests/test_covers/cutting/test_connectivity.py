@@ -8,7 +8,7 @@ from skfem import MeshTri
 from covers.cutting.components import components
 from covers.cutting.cut import cut
 from covers.mathematical.bspline import BSplines
-from covers.mathematical.moving_least_squares import MovingLeastSquares
+from covers.mathematical.meshless.moving_least_squares import MovingLeastSquares
 from covers.mathematical.quads import Quads
 from covers.mathematical.triangles import Triangles
 from integration.polygons import Polygons

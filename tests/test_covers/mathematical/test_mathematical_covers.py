@@ -9,9 +9,9 @@ from skfem import MeshQuad, MeshTri
 
 from covers.mathematical.bspline import BSplines, cardinal_pieces
 from covers.mathematical.graded import Graded
-from covers.mathematical.kernels import KERNELS
 from covers.mathematical.mesh_edges import mesh_edges
-from covers.mathematical.moving_least_squares import MovingLeastSquares
+from covers.mathematical.meshless.kernels import KERNELS
+from covers.mathematical.meshless.moving_least_squares import MovingLeastSquares
 from covers.mathematical.quads import Quads
 from covers.mathematical.registry import COVERS, cover_class
 from covers.mathematical.triangles import Triangles

@@ -21,7 +21,7 @@ from nmm.formulation import CoverTable, EnrichmentTable
 from nmm.fracture.stress_intensity import StressIntensity, stress_intensity
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
-from nmm.model.tips import tips_of
+from nmm.model.manifolds.tips import tips_of
 from nmm.stepping.drive.linear_statics import body_force, equilibrium, hold, traction
 
 KAPPA, SHEAR = 3 - 4 * 0.3, 1 / 2.6

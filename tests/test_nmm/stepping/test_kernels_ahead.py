@@ -60,7 +60,7 @@ def test_a_run_after_it_compiles_no_loop_of_the_solution_again(tmp_path):
     left = set(found.stdout.split())
     assert not left & {
         "nmm.solvers.frontal.numbers.fronts",
-        "nmm.contact.iteration.compiled_newton",
+        "nmm.contact.iteration.newton.compiled_newton",
         "nmm.contact.islands.warm_start",
         "nmm.contact.islands.partition",
         "nmm.contact.problem.matrix_pattern",

@@ -8,7 +8,7 @@ import pytest
 from scipy.sparse import csc_array
 
 import nmm
-from covers.mathematical.moving_least_squares import MovingLeastSquares
+from covers.mathematical.meshless.moving_least_squares import MovingLeastSquares
 from covers.mathematical.quads import Quads
 from covers.mathematical.triangles import Triangles
 from integration.polygons import Polygons

@@ -1,7 +1,7 @@
 """How long a method may try, and how long it may go on slowly."""
 
 from dataclasses import dataclass
-from math import inf, log
+from math import inf
 
 SMALL = 120
 """Unknowns up to which exactness costs nothing: Newton's method is tried first."""
@@ -46,13 +46,6 @@ class Patience:
     ahead: float
     below: float = inf
     look: int = 4
-
-    def lost(self, sizes: list[float], tolerance: float) -> bool:
-        """Whether the best ``sizes`` so far, one a solve, forecast too many solves."""
-        if len(sizes) <= self.look or not sizes[-1] < self.below:
-            return False
-        gain = log(sizes[-1 - self.look] / sizes[-1]) / self.look
-        return not gain * self.ahead >= log(sizes[-1] / tolerance)
 
     def longer(self, size: float, stay: float) -> "Patience":
         """Patience of a problem in which a factorisation costs ``size`` times as many solves.

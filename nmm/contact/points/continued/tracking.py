@@ -17,7 +17,7 @@ from nmm.frozen import with_parts
 from nmm.interfaces.history import History
 
 # From points to where their sides a are from their sides b (m, 2).
-RigidSplit = Callable[[ContactPoints], Floats]
+Apart = Callable[[ContactPoints], Floats]
 
 # What a contact that goes on keeps.
 CARRIED = ("slip", "state", "normal_force", "shear_force")

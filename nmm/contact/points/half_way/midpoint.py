@@ -11,14 +11,11 @@ Both sides move as if the force acted at one point, that of side a, or in joints
 both sides: it makes no couple.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from scipy.sparse import csr_array
 
 from integration.arrays import Floats
 from integration.contraction import contract
-from nmm.assembly.material_points import MaterialPoints
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.contact.points.between_faces import EdgeShares
@@ -53,56 +50,6 @@ def midpoint_rows(
     Every body must be one element: the rows of its points then hold all of its unknowns, and with
     their `body_projection` one compiled pass says what turning adds.
     """
-    contacts, points = _half_way(contacts, sides, half)
-    side_a, side_b = points.points
-    bent = side_a.rows.apply(half.deformation), side_b.rows.apply(half.deformation)
-
-    def turn(normal: Floats, tangent: Floats) -> None:
-        add_turns(
-            *(normal, tangent, points.direction, points.levers, points.factors, points.turns),
-            (side_a.body, side_b.body),
-            bent,
-            (start.frames.rotation, half.frames.rotation),
-            projection,
-        )
-
-    return contact_rows(contacts, sides, half.frames, turn=turn)
-
-
-@dataclass(frozen=True)
-class _HalfWay:
-    """Contact points half way through a step.
-
-    Attributes
-    ----------
-    direction
-        (m, 2) normals.
-    factors
-        (m,) what edges of sides a and b add to the line between faces, over its length (1/m).
-    apart
-        (m, 2) from side b to side a (m).
-    turns
-        (m, 2, L) rows of the ends of the edges of both sides less those of their starts.
-    points
-        Both sides.
-    """
-
-    direction: Floats
-    factors: tuple[Floats, Floats]
-    apart: Floats
-    turns: tuple[Floats, Floats]
-    points: tuple[MaterialPoints, MaterialPoints]
-
-    @property
-    def levers(self) -> tuple[Floats, Floats]:
-        """How far (m,) apart sides are along tangent and normal: what lines that turn move (m)."""
-        across = tangents(self.direction)
-        one, other = (contract("ij,ij->i", self.apart, way) for way in (across, self.direction))
-        return one, other
-
-
-def _half_way(contacts: ContactPoints, sides: Sides, half: State) -> tuple[ContactPoints, _HalfWay]:
-    """Contacts with their normals and feet half way, and where their points are."""
     surface, edge = sides.moved(half.frames, half.deformation), contacts.edge_b
     shares = EdgeShares.of(contacts, sides.length)
     line = shares.along(contacts, surface)
@@ -115,7 +62,16 @@ def _half_way(contacts: ContactPoints, sides: Sides, half: State) -> tuple[Conta
     parameter = np.where(contacts.is_joint, contacts.parameter_b, foot)
     side_b = sides.at(edge, parameter)
     apart = place_a - side_b.place(half.frames, half.deformation)
-    factors = (shares.a / stretch).ravel(), (shares.b / stretch).ravel()
-    turns = sides.turns(contacts.edge_a), sides.turns(edge)
+
+    def turn(normal: Floats, tangent: Floats) -> None:
+        # How far apart sides are along tangent and normal: what lines that turn move.
+        levers = tuple(contract("ij,ij->i", apart, way) for way in (tangents(direction), direction))
+        factors = (shares.a / stretch).ravel(), (shares.b / stretch).ravel()
+        turns = sides.turns(contacts.edge_a), sides.turns(edge)
+        bent = side_a.rows.apply(half.deformation), side_b.rows.apply(half.deformation)
+        rotations = start.frames.rotation, half.frames.rotation
+        given = direction, levers, factors, turns, (side_a.body, side_b.body), bent, rotations
+        add_turns(normal, tangent, *given, projection)
+
     there = with_parts(contacts, normal=direction, parameter_b=parameter)
-    return there, _HalfWay(direction, factors, apart, turns, (side_a, side_b))
+    return contact_rows(there, sides, half.frames, turn=turn)

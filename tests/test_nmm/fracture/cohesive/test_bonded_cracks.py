@@ -6,8 +6,8 @@ import pytest
 import nmm
 from nmm.errors import NmmError
 from nmm.formulation import parse_formulation
+from nmm.model.manifolds.tips import tip_lines
 from nmm.model.solver_settings import warnings
-from nmm.model.tips import tip_lines
 from nmm.scene.methods.cover_tables import EnrichmentTable
 from nmm.scene.read import parse_scene
 from nmm.stepping.prepare import prepare

@@ -22,9 +22,9 @@ from nmm.assembly.stress_points import StressAt
 from nmm.assembly.tractions.donors import Flux, added_traction, in_global_axes
 from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface, Triplets, joined, product
-from nmm.constraints.linear_matter import check_linear
-from nmm.constraints.nitsche_terms import against_ground, between_bodies
-from nmm.constraints.volume_lift import PressureLift
+from nmm.constraints.nitsche.linear_matter import check_linear
+from nmm.constraints.nitsche.nitsche_terms import against_ground, between_bodies
+from nmm.constraints.nitsche.volume_lift import PressureLift
 
 
 @dataclass(frozen=True)

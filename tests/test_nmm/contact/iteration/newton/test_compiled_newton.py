@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from nmm.contact.iteration.compiled_newton import serves
 from nmm.contact.iteration.memory import Memory
-from nmm.contact.iteration.modified_newton import ModifiedNewton
+from nmm.contact.iteration.newton.compiled_newton import serves
+from nmm.contact.iteration.newton.modified_newton import ModifiedNewton
 from nmm.contact.iteration.options import Patience
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.solvers.linear import make_solver

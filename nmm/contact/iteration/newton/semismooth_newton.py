@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.iteration.full_newton import newton_in_full
+from nmm.contact.iteration.newton.full_newton import newton_in_full
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.solvers.linear import LinearSolver

@@ -6,9 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from covers.cutting.components import components
-from covers.cutting.half_edges import half_edges
+from covers.cutting.plane_graph.half_edges import half_edges
+from covers.cutting.plane_graph.snap_rounding import NEAR, lines_between, node, undirected
 from covers.cutting.resolution import clusters, resolution_of
-from covers.cutting.snap_rounding import NEAR, lines_between, node, undirected
 
 BOX = np.array([[-1.0, -1.0], [1.0, 1.0]])
 

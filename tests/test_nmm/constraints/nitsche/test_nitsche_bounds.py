@@ -14,9 +14,9 @@ from nmm.assembly.model import Model
 from nmm.assembly.places import on_edges
 from nmm.assembly.tractions.donors import traction_rows
 from nmm.assembly.tractions.element_bounds import element_bounds
-from nmm.constraints import nitsche_terms
 from nmm.constraints.imposition import Method
-from nmm.constraints.nitsche_bounds import edge_bound
+from nmm.constraints.nitsche import nitsche_terms
+from nmm.constraints.nitsche.nitsche_bounds import edge_bound
 from nmm.materials.elastic import Elastic
 
 SQUARE = Polygons.from_vertices([np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])])

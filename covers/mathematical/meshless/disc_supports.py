@@ -17,13 +17,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from covers.mathematical.kernels import kernel
+from covers.mathematical.meshless.kernels import kernel
 from integration.arrays import Bools, Floats
 from integration.rules import polygon_rule
 
 if TYPE_CHECKING:
     from covers.cutting.cut_cells import CutCells
-    from covers.mathematical.moving_least_squares import MovingLeastSquares
+    from covers.mathematical.meshless.moving_least_squares import MovingLeastSquares
 
 # A disc is removed if its share is below this part of the largest about it, by degree of the basis.
 # Each removed disc makes a coarse grid stiffer, but functions on Shepard weights need larger

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.iteration import compiled_newton
+from nmm.contact.iteration.newton import compiled_newton
 from nmm.contact.iteration.options import DEFAULT, AlternationOptions, Patience
 from nmm.contact.problem.cut_springs import CutSprings, Residual
 from nmm.solvers.anderson import Anderson
@@ -59,6 +59,7 @@ class ModifiedNewton:
     def _plain(self, budget: int, tolerance: float, patience: Patience | None) -> bool:
         """Do the same by a loop in Python, for any factor."""
         most, sizes = self.solves + budget, [self.residual.size]
+        terms = compiled_newton.terms(patience)
         history = Anderson(self.options.depth)
         history.start(len(self.increment))
         at, residual = self.increment, self.residual
@@ -83,7 +84,7 @@ class ModifiedNewton:
             if found.size < self.residual.size:
                 self.increment, self.residual = at, found
             sizes.append(self.residual.size)
-            if patience is not None and patience.lost(sizes, tolerance):
+            if compiled_newton.lost(np.array(sizes), len(sizes) - 1, terms, tolerance):
                 break
         return self.residual.size <= tolerance
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from covers.cutting.components import components
-from covers.cutting.half_edges import HalfEdges, half_edges
-from covers.cutting.snap_rounding import Lines, undirected
+from covers.cutting.plane_graph.half_edges import HalfEdges, half_edges
+from covers.cutting.plane_graph.snap_rounding import Lines, undirected
 from covers.mathematical.mesh_edges import MeshEdges
 from integration.arrays import Bools, Floats, Ints
 
@@ -55,7 +55,7 @@ class Cells:
 
 @dataclass(frozen=True)
 class Faces:
-    """Faces of the plane graph of all lines; half-edges as in `covers.cutting.half_edges`.
+    """Faces of the plane graph of all lines; half-edges as in `half_edges`.
 
     Attributes
     ----------

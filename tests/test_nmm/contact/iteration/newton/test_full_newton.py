@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.sparse import csc_array
 
-from nmm.contact.iteration.full_newton import newton_in_full
 from nmm.contact.iteration.memory import Memory
-from nmm.contact.iteration.semismooth_newton import polish
+from nmm.contact.iteration.newton.full_newton import newton_in_full
+from nmm.contact.iteration.newton.semismooth_newton import polish
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.solvers.linear import make_solver
 from nmm.testing.contact_oracle import random_problem

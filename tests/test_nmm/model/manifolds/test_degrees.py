@@ -166,7 +166,7 @@ def test_blocks_have_no_regions() -> None:
 
 
 def test_the_formulations_of_the_manual_are_read() -> None:
-    page = (Path(__file__).parents[3] / "docs" / "covers.md").read_text()
+    page = (Path(__file__).parents[4] / "docs" / "covers.md").read_text()
     parts = [part.split("```")[0] for part in page.split("```toml\n")[1:]]
     assert len(parts) == 4
     regions, volumes, tips, mass = (parse_formulation(part) for part in parts)

@@ -50,15 +50,20 @@ def run(
     assert isinstance(decomposition, FrontalFactor)
     outside, plan = decomposition.for_loops
     x, force, size = start
-    wait, (depth, growth) = patience or NEVER, steer
-    # Of one type each, so that the loop is compiled once: options may give whole numbers.
+    depth, growth = steer
+    # Of one type each, so that the loop is compiled once.
     given = float(size), int(budget), float(tolerance)
-    steady = float(wait.ahead), float(wait.below), int(wait.look)
     turn = int(depth), float(growth)
     with OneThread():
-        found = loop(x, force, *given, steady, turn, factor.scale, outside, plan, springs)
+        found = loop(x, force, *given, terms(patience), turn, factor.scale, outside, plan, springs)
     increment, force, size, solves = found
     return increment, force, float(size), int(solves)
+
+
+def terms(patience: Patience | None) -> tuple[float, float, int]:
+    """Return a patience as `lost` takes it, of one type each: options may give whole numbers."""
+    wait = patience or NEVER
+    return float(wait.ahead), float(wait.below), int(wait.look)
 
 
 @compiled
@@ -109,14 +114,14 @@ def loop(
             best, best_force, best_size = at, force, new_size
         passes += 1
         sizes[passes] = best_size
-        if _lost(sizes, passes, patience, tolerance):
+        if lost(sizes, passes, patience, tolerance):
             break
     return best, best_force, best_size, solves
 
 
 @compiled
-def _lost(sizes: Floats, passes: int, patience: tuple[float, float, int], tolerance: float) -> bool:
-    """`Patience.lost`."""
+def lost(sizes: Floats, passes: int, patience: tuple[float, float, int], tolerance: float) -> bool:
+    """Whether the best ``sizes`` of so many passes, one a solve, forecast too many solves."""
     ahead, below, look = patience
     if ahead < 0 or passes < look or not sizes[passes] < below:
         return False

@@ -128,9 +128,9 @@ def _mesh(
     before: "Cutting | None",
 ) -> Covering:
     from covers.approximation.mesh_manifold import mesh_manifold
-    from nmm.model.degrees import kinds_by_region
-    from nmm.model.enriching import enrichments
-    from nmm.model.several_meshes import laid_and_cut
+    from nmm.model.manifolds.degrees import kinds_by_region
+    from nmm.model.manifolds.enriching import enrichments
+    from nmm.model.manifolds.several_meshes import laid_and_cut
 
     if cover.size is None:
         raise FormulationError(

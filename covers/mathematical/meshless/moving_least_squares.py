@@ -9,10 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from covers.mathematical.base import Cover
-from covers.mathematical.discs import discs_of_cells, with_discs_alike
-from covers.mathematical.kernels import kernel
+from covers.mathematical.meshless.discs import discs_of_cells, with_discs_alike
+from covers.mathematical.meshless.kernels import kernel
+from covers.mathematical.meshless.weighted_fits import fit
 from covers.mathematical.regular_grids import grid_cells, grid_vertices, regular_net
-from covers.mathematical.weighted_fits import fit
 from integration.arrays import Floats, Ints
 from integration.monomials import count, differentiate, evaluate
 
@@ -45,10 +45,10 @@ class MovingLeastSquares(Cover):
     degree : int
         degree of the basis.
     kernel : str
-        one of `covers.mathematical.kernels.KERNELS`.
+        one of `covers.mathematical.meshless.kernels.KERNELS`.
     left_out, enlarged : int
         pieces of discs that reach the material too little to carry functions, and discs whose
-        radius has grown in their place (`covers.mathematical.disc_supports`).
+        radius has grown in their place (`covers.mathematical.meshless.disc_supports`).
     """
 
     overlap: ClassVar[float] = 10.0
@@ -212,7 +212,7 @@ class MovingLeastSquares(Cover):
         ValueError
             Points whose fit no enlarged disc determines.
         """
-        from covers.mathematical.disc_supports import fitted_discs, undetermined_discs
+        from covers.mathematical.meshless.disc_supports import fitted_discs, undetermined_discs
 
         cover, radius = self, self.radius
         for _ in range(ROUNDS):  # each enlarges the discs of points whose fit is undetermined

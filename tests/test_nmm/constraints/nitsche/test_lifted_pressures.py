@@ -5,7 +5,7 @@ import pytest
 from scipy.sparse import csr_array
 
 import nmm
-from nmm.constraints.volume_lift import _of_patches
+from nmm.constraints.nitsche.volume_lift import _of_patches
 from nmm.scene.read import parse_scene
 
 WIDE, HIGH = 6.278935036798811, 4.0956742505210215

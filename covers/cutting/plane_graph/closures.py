@@ -15,10 +15,10 @@ import numpy as np
 import shapely
 
 from covers.cutting.components import components
-from covers.cutting.faces import Cells, Faces, Sources, faces_of
-from covers.cutting.half_edges import walks
+from covers.cutting.plane_graph.faces import Cells, Faces, Sources, faces_of
+from covers.cutting.plane_graph.half_edges import walks
+from covers.cutting.plane_graph.snap_rounding import Lines, node
 from covers.cutting.resolution import Resolution
-from covers.cutting.snap_rounding import Lines, node
 from integration.arrays import Bools, Floats, Ints
 from integration.plane_vectors import cross
 

@@ -2,7 +2,7 @@
 
 Between bodies the traction is an average of both sides (`nmm.assembly.tractions.average`) and the
 penalty four times the least one. Pressures of nearly incompressible sides have terms of their own
-(`nmm.constraints.volume_lift`).
+(`nmm.constraints.nitsche.volume_lift`).
 """
 
 import numpy as np
@@ -17,8 +17,8 @@ from nmm.assembly.tractions.donors import Flux, traction_rows
 from nmm.assembly.tractions.element_bounds import element_bounds
 from nmm.constraints.imposition import Method
 from nmm.constraints.interface import Interface
-from nmm.constraints.nitsche_bounds import edge_bound
-from nmm.constraints.volume_lift import PressureLift, lift
+from nmm.constraints.nitsche.nitsche_bounds import edge_bound
+from nmm.constraints.nitsche.volume_lift import PressureLift, lift
 
 # Nitsche's penalty in (lambda + 2 mu) / h by degree of the local functions: measured to keep the
 # matrix positive down to cuts of 1e-6 of a cell.

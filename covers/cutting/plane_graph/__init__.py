@@ -1,0 +1,1 @@
+"""Lines as a plane graph: they meet at common ends, and bound faces that are simple polygons."""

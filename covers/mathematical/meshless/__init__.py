@@ -1,0 +1,1 @@
+"""Meshless covers: discs about nodes, with weights of weighted fits."""

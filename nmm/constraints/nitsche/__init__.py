@@ -1,0 +1,1 @@
+"""Interfaces held by Nitsche's method: its terms, and the matter whose tractions they know."""

@@ -1,0 +1,1 @@
+"""Newton's method on cut springs, modified and semismooth, and both in compiled loops."""

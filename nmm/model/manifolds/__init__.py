@@ -1,0 +1,1 @@
+"""From a formulation's cover to a manifold: nets, degrees, singular functions."""
