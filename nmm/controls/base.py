@@ -28,7 +28,7 @@ class PathState:
     load
         (n,) force of a load factor of one there (N).
     dead
-        (n,) force of loads that no factor scales, as weight (N).
+        (n,) force of what no factor scales: weight, stress without strain (N).
     monitors
         Points of the scene, by name.
     way

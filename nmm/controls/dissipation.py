@@ -2,8 +2,8 @@
 
 With loads ``p = lambda f + g`` on a structure that unloads to its origin ``p.u / 2`` is stored, so
 that a step dissipates ``(p.du - dlambda f.u) / 2`` (Gutierrez 2004; Verhoosel, Remmers and
-Gutierrez 2009; there without loads ``g`` that stay, as weight). Before the first bond is at its
-limit nothing is dissipated, and the load is what grows.
+Gutierrez 2009; there without forces ``g`` that stay, as of weight and of initial stress). Before
+the first bond is at its limit nothing is dissipated, and the load is what grows.
 """
 
 from dataclasses import dataclass

@@ -109,9 +109,10 @@ class Plan(NamedEffects):
         return more - now
 
     def dead_load(self, state: State) -> Floats:
-        """Return the force (n,) of loads that no load factor scales, as weight (N)."""
-        working, at = {name for name, _ in self.named("work")}, Instant(state.time, 0.0)
-        loads = (one.force(state, at) for name, one in self.named("force") if name in working)
+        """Return the force (n,) of what no factor scales: weight, stress without strain (N)."""
+        dead = {name for hook in ("work", "stress_at") for name, _ in self.named(hook)}
+        at = Instant(state.time, 0.0)
+        loads = (one.force(state, at) for name, one in self.named("force") if name in dead)
         return sum(loads, start=np.zeros(len(state.deformation)))
 
     @cached_property

@@ -1,5 +1,10 @@
 """Whether a path falls beyond the last load that was solved: a limit point, seen by following."""
 
+from dataclasses import replace
+
+import numpy as np
+
+from integration.arrays import Floats
 from nmm.assembly.state import State
 from nmm.controls.base import Control
 from nmm.controls.dissipation import Dissipation
@@ -50,7 +55,7 @@ def limit_point(stepper: Stepper, state: State, factor: float) -> LimitPoint | N
     soft = not contact.laws.brittle.all()
     control: Control = Dissipation(PART * energy) if soft else NextEvent(1.0)
     end, quiet = PathEnd(factor, PEAK_PASSED), Recorder(stepper, Tee([]), [])
-    at = OnPath.at_start(state, control.increment)
+    at = replace(OnPath.at_start(state, control.increment), way=_way(stepper, state))
     last, verdict = run_path(stepper, quiet, at, control, end, lambda share, said: None)
     stepper.restore(record)
     stepper.budget.taken = taken
@@ -62,6 +67,15 @@ def limit_point(stepper: Stepper, state: State, factor: float) -> LimitPoint | N
         f"to {last.load_factor:.6g} in equilibrium"
     )
     return LimitPoint(peak, sentence)
+
+
+def _way(stepper: Stepper, state: State) -> Floats:
+    """Return the displacements (n,) of the unknowns, those of bodies as a whole in their axes."""
+    frames, modes = state.frames, stepper.model.manifold.rigid_modes
+    assert frames.way is not None
+    turned = frames.angle if frames.tilt is None else frames.angle + frames.tilt
+    moved = frames.to_body(np.arange(len(turned)), frames.way)
+    return np.asarray(state.deformation + modes @ np.column_stack([moved, turned]).ravel())
 
 
 def _energy(stepper: Stepper, state: State) -> float:

@@ -73,10 +73,16 @@ def strengths_left(run: nmm.Run, joints: int) -> np.ndarray:
     return 1 - run.history["friction_loss"] / (joints * ENERGY * WIDTH)
 
 
+@pytest.mark.parametrize("stress", ["", STRESSED])
 @pytest.mark.parametrize("number", [2, 3])
-def test_the_highest_joint_softens_by_what_it_dissipates_beside_weight(number: int) -> None:
-    """What unloads to its origin under a line of strength loses it by the energy that it takes."""
-    run = chain(number, "", LED, SOFTENS)
+def test_the_highest_joint_softens_by_what_it_dissipates_beside_weight(
+    number: int, stress: str
+) -> None:
+    """What unloads to its origin under a line of strength loses it by the energy that it takes.
+
+    Steps were 1 and 1.6 % too long under the stress, which no load of the equation held.
+    """
+    run = chain(number, stress, LED, SOFTENS)
     expected = (STRENGTH * strengths_left(run, 1) - WEIGHT * (number - 1)) / PULL
     # Of 20 J 0.04 J are those of terms at the highest of three blocks as springs take over.
     assert run.history["load_factor"] == pytest.approx(expected, abs=5 if number > 2 else 0.1)
@@ -91,3 +97,16 @@ def test_joints_of_one_strength_soften_together() -> None:
     expected = STRENGTH * strengths_left(run, 2) / PULL
     assert run.history["load_factor"] == pytest.approx(expected, abs=0.1)
     assert run.history["friction_loss"][-1] > 0.89 * 2 * ENERGY * WIDTH
+
+
+@pytest.mark.parametrize("energy", [50.0, 3.0])
+def test_a_growing_load_sees_its_limit_point_where_the_chain_snaps_back_too(energy: float) -> None:
+    """Beyond 2 E GF / ft^2 = 0.96 m of 3 J/m2 a chain of 2 m gives back more than the joint takes.
+
+    Its end moves back as soon as the load falls: what a step takes is in the fall of the load.
+    """
+    law = SOFTENS.replace(str(ENERGY), str(energy))
+    steps = "[formulation.loading]\nincrement = 500.0\n"
+    run = chain(2, steps, '[loading]\nuntil = "failure"\n', law)
+    largest = (STRENGTH - WEIGHT) / PULL
+    assert f"the path falls from load factor {largest:.6g}" in run.summary.sentence
