@@ -10,8 +10,8 @@ from nmm.stepping.after_failure import show_failure
 from nmm.stepping.checkpoints import Checkpoints
 from nmm.stepping.compiled_scene import CompiledScene
 from nmm.stepping.drive.in_time import Schedule
+from nmm.stepping.drive.load_verdicts import with_unheld
 from nmm.stepping.drive.phases import EndedRun, Phases
-from nmm.stepping.drive.statics import with_unheld
 from nmm.stepping.drive.under_load import Beyond, LoadSchedule, UnderLoad, unseen
 from nmm.stepping.drive.verdict import CONVERGED, FAILURE
 from nmm.stepping.reports.recorder import Recorder

@@ -23,7 +23,7 @@ from nmm.stepping.control.settling import settled
 from nmm.stepping.control.trials import Trials
 from nmm.stepping.control.verdicts import arrived, no_balance
 from nmm.stepping.drive.changes import AcceptedState, asked, with_events
-from nmm.stepping.drive.settling import rounding
+from nmm.stepping.drive.equilibrium.settling import rounding
 from nmm.stepping.drive.until_verdict import until_verdict
 from nmm.stepping.drive.verdict import RunVerdict
 from nmm.stepping.reports.recorder import Recorder

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from nmm.stepping.drive.settling import CORRECTIONS, SETTLED, joined, rounding
+from nmm.stepping.drive.equilibrium.settling import CORRECTIONS, SETTLED, joined, rounding
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
 

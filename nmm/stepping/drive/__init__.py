@@ -1,4 +1,4 @@
-"""What drives steps: time, growing loads, relaxation; and how a run ends.
+"""What drives steps: time, growing loads; and how a run ends.
 
 One step is in `step`; paths are in `control`.
 """

@@ -28,7 +28,7 @@ from nmm.model.planning.plan import Plan
 from nmm.model.planning.pressures import lifted_energy, patch_pressures
 from nmm.model.solver_settings import solver_for
 from nmm.solvers.linear import Factor
-from nmm.stepping.step.equations import Assembly
+from nmm.stepping.step.assembly import Assembly
 from nmm.stepping.step.linear_system import LinearSystem
 
 Field = Callable[[Floats], Floats]

@@ -12,20 +12,22 @@ from typing import TYPE_CHECKING
 from nmm.assembly.state import State
 from nmm.progress import Progress
 from nmm.stepping.drive.changes import AcceptedState, asked, with_events
-from nmm.stepping.drive.evidence import evidence
-from nmm.stepping.drive.relaxation import RelaxationEnd, relax
-from nmm.stepping.drive.settling import SettledStep, anchored, is_adrift, may_be_loose, settle
+from nmm.stepping.drive.equilibrium.relaxation import relax
+from nmm.stepping.drive.equilibrium.settling import (
+    anchored,
+    is_adrift,
+    may_be_loose,
+    settle,
+)
+from nmm.stepping.drive.load_verdicts import no_equilibrium, no_rest, with_unheld
 from nmm.stepping.drive.under_load import Beyond, LoadSchedule, Rest, Trial, UnderLoad, unseen
 from nmm.stepping.drive.until_verdict import until_verdict
 from nmm.stepping.drive.verdict import (
-    COLLAPSED,
     CONVERGED,
-    FAILED,
     FAILURE,
     RunVerdict,
 )
 from nmm.stepping.reports.recorder import Recorder
-from nmm.stepping.step.anchors import ANCHOR, unheld
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
 
@@ -171,14 +173,14 @@ class _Raising:
         rest = relax(self.stepper, at.state, end, self.names, near=self.schedule.at_once)
         if not rest.at_rest:
             self.stepper.restore(start)
-            return _no_rest(rest)
+            return no_rest(rest)
         state = replace(rest.state, time=at.state.time, load_factor=0.0)
         self.recorder.brought_to(state)
         return replace(at, state=state, rest=Rest(rest.steps, rest.way, rest.lost))
 
     def _ended(self, at: UnderLoad, trial: Trial) -> RunVerdict:
         """Return the verdict on the finest increment, under which no equilibrium was found."""
-        verdict = _no_equilibrium(
+        verdict = no_equilibrium(
             at, trial.factor, trial.found, self.schedule, self.stepper, self.names, self.beyond
         )
         return with_unheld(verdict, self.stepper, at.state, self.names)
@@ -203,69 +205,7 @@ def _breaking(fine: bool) -> "Breaking":
     return "worst" if fine else "stop"
 
 
-def with_unheld(
-    verdict: RunVerdict, stepper: Stepper, state: State, names: Sequence[str]
-) -> RunVerdict:
-    """Add which blocks nothing but anchors would hold, and whether anchors were used."""
-    balanced = verdict.code == CONVERGED
-    said = [verdict.sentence, *unheld(stepper, state, names, balanced)]
-    if stepper.anchored:
-        said.append(f"anchors of {ANCHOR:.0e} of the blocks' stiffness were used and carry nothing")
-    return replace(verdict, sentence="; ".join(said))
-
-
 def _unsettled(attempt: Attempt) -> bool:
     """Whether what interface laws remember did not settle: bonds soften where no load is held."""
     solved = attempt.solved
     return solved is not None and solved.answer.verdict.code == "passes"
-
-
-def _no_rest(rest: RelaxationEnd) -> RunVerdict:
-    sentence = f"after {rest.steps} steps of relaxation: {rest.sentence}"
-    if rest.falls:
-        return RunVerdict(COLLAPSED, f"no equilibrium of loose blocks {sentence}", 0.0)
-    return RunVerdict(FAILED, f"no equilibrium of loose blocks was found {sentence}", 0.0)
-
-
-def _no_equilibrium(
-    at: UnderLoad,
-    factor: float,
-    found: SettledStep,
-    schedule: LoadSchedule,
-    stepper: Stepper,
-    names: Sequence[str],
-    beyond: Beyond,
-) -> RunVerdict:
-    """Return the verdict on a load that was not solved: of the structure, if that is shown."""
-    held, reason = at.state.load_factor, found.attempt.sentence
-
-    def proven() -> str | None:
-        return evidence(stepper, at.state, factor, found, names)
-
-    def passed() -> str | None:
-        limit = beyond(at.state, factor) if schedule.until_failure and held else None
-        return None if limit is None else limit.sentence
-
-    # The static theorem knows bonds as they were: of those that break the path tells sooner.
-    solved = found.attempt.solved
-    shown = passed() or proven() if solved and solved.broken else proven() or passed()
-    where = f"at load factor {held:.6g} after {at.changed}"
-    if not at.changed:
-        where = f"between load factors {held:.6g} and {factor:.6g}"
-    above = at.increment if at.changed else factor - held
-    tolerance = above / held if held else None
-    if shown is None:
-        sentence = (
-            f"no equilibrium was found {where}: {reason}; "
-            "nothing shows that the structure is at fault: it may carry more; try another "
-            "enforcement or a larger loading.tolerance"
-        )
-        return RunVerdict(FAILED, sentence, held, tolerance)
-    if not schedule.until_failure or tolerance is None:
-        return RunVerdict(COLLAPSED, f"no equilibrium {where}: {shown}", held)
-    none = f"none after {at.changed}" if at.changed else f"none at {factor:.6g}"
-    sentence = (
-        f"in equilibrium up to load factor {held:.6g}, {none} "
-        f"({100 * tolerance:.2g} % above): {shown}"
-    )
-    return RunVerdict(FAILURE, sentence, held, tolerance)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from nmm.assembly.state import State
 from nmm.effects.base import Instant
 from nmm.stepping.drive.changes import Asked
-from nmm.stepping.drive.settling import SettledStep
+from nmm.stepping.drive.equilibrium.settling import SettledStep
 from nmm.stepping.drive.verdict import LimitPoint
 
 if TYPE_CHECKING:

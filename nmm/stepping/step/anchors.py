@@ -2,10 +2,10 @@
 
 Where statics with contact finds no equilibrium, every body is anchored by springs of `ANCHOR` times
 its own stiffness to where it stands when a solution begins. Solutions are repeated from the moved
-place until nothing moves (`nmm.stepping.drive.settling.settle`), so that the anchors carry nothing
-in the end: it is the proximal point iteration (Rockafellar 1976). A block that no load moves, a
-piece without weight that came loose or one in neutral equilibrium, stays where it is; one that a
-load moves goes far.
+place until nothing moves (`nmm.stepping.drive.equilibrium.settling`), so that the anchors carry
+nothing in the end: it is the proximal point iteration (Rockafellar 1976). A block that no load
+moves, a piece without weight that came loose or one in neutral equilibrium, stays where it is; one
+that a load moves goes far.
 """
 
 from collections.abc import Sequence

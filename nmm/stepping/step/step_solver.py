@@ -14,10 +14,11 @@ from nmm.frozen import with_parts
 from nmm.integrators.base import Integrator
 from nmm.model.discretisation import CurrentDiscretisation
 from nmm.solvers.linear import Factor, LinearSolver
+from nmm.stepping.step.assembly import Assembly
 from nmm.stepping.step.booking import booked
 from nmm.stepping.step.carried import CarriedState
 from nmm.stepping.step.clock import Clock
-from nmm.stepping.step.equations import Assembly, Equations, Linearisation
+from nmm.stepping.step.equations import Equations, Linearisation
 from nmm.stepping.step.free_step import FreeStepSolver
 from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.nonlinear.inner import InternalForces
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     from nmm.contact.solution.record import Breaking, BrokenBonds
     from nmm.controls.path_equation import PathEquation
     from nmm.effects.change import Change
-    from nmm.stepping.step.contact_step import ContactStepSolver
+    from nmm.stepping.step.contact.contact_step import ContactStepSolver
 
 
 class StepSolver:
@@ -71,7 +72,7 @@ class StepSolver:
         self, solver: LinearSolver, size: float, carries: bool
     ) -> "ContactStepSolver":
         """Return what solves steps with contact; not imported where nothing may touch."""
-        from nmm.stepping.step.contact_step import ContactStepSolver
+        from nmm.stepping.step.contact.contact_step import ContactStepSolver
 
         return ContactStepSolver(self._current, self.mover, solver, size, carries, self._clock)
 

@@ -8,7 +8,7 @@ from nmm.formulation import Formulation
 from nmm.results.sink import MemorySink
 from nmm.scene.model import Scene
 from nmm.stepping.prepare import prepare
-from nmm.stepping.step.contact_search import ContactSearch
+from nmm.stepping.step.contact.contact_search import ContactSearch
 
 RADIUS, SIDES, TILT, STEP, STEPS = 0.5, 20, 0.35, 1e-3, 100
 

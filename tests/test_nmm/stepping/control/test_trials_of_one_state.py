@@ -8,7 +8,7 @@ import nmm
 from nmm.controls.path_equation import PathEquation
 from nmm.formulation import Formulation
 from nmm.stepping.prepare import prepare
-from nmm.stepping.step.contact_search import ContactSearch
+from nmm.stepping.step.contact.contact_search import ContactSearch
 
 BAR = Path(__file__).parents[4] / "examples" / "snap_back" / "bar.toml"
 

@@ -14,8 +14,8 @@ from nmm.effects.base import Instant, Span
 from nmm.errors import NmmError
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
-from nmm.stepping.drive.evidence import evidence
-from nmm.stepping.drive.settling import SettledStep
+from nmm.stepping.drive.equilibrium.evidence import evidence
+from nmm.stepping.drive.equilibrium.settling import SettledStep
 from nmm.stepping.prepare import prepare
 
 COVERS = {

@@ -6,8 +6,8 @@ import pytest
 
 import nmm
 from nmm.effects.given.steps import Instant
-from nmm.stepping.drive.pace import CUTS
-from nmm.stepping.drive.relaxation import _first_length, relax
+from nmm.stepping.drive.equilibrium.pace import CUTS
+from nmm.stepping.drive.equilibrium.relaxation import _first_length, relax
 from nmm.stepping.prepare import prepare
 from nmm.stepping.step.nonlinear.progress import FRUITLESS, MOST, hopeless
 from nmm.stepping.step.stepper import Stepper
@@ -77,7 +77,7 @@ def test_a_step_that_was_cut_short_is_not_taken_for_rest(made, monkeypatch):
 def test_a_loose_block_comes_to_rest_where_steps_are_held_at_a_third_of_the_first(
     made, monkeypatch
 ):
-    monkeypatch.setattr("nmm.stepping.drive.pace.LONGER", 1.0)
+    monkeypatch.setattr("nmm.stepping.drive.equilibrium.pace.LONGER", 1.0)
     found, _ = relaxed(made, monkeypatch, 1 / 3)
     assert found.at_rest
 

@@ -5,7 +5,7 @@ import re
 import pytest
 
 import nmm
-from nmm.stepping.drive.vanishing_stiffness import vanishing_stiffness
+from nmm.stepping.drive.equilibrium.vanishing_stiffness import vanishing_stiffness
 from nmm.verification.problems.finite.truss import LIMIT, SnappedTruss
 
 

@@ -18,8 +18,8 @@ from nmm.assembly.state import State
 from nmm.effects.base import Instant
 from nmm.integrators.shi import Shi
 from nmm.stepping.bounds.static_theorem import carried
-from nmm.stepping.drive.pace import Pace
-from nmm.stepping.drive.settling import COLLAPSE, anchored
+from nmm.stepping.drive.equilibrium.pace import Pace
+from nmm.stepping.drive.equilibrium.settling import COLLAPSE, anchored
 from nmm.stepping.step.anchors import block_name, largest_mover
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt

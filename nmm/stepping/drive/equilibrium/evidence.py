@@ -6,8 +6,8 @@ import numpy as np
 
 from nmm.assembly.state import State
 from nmm.stepping.bounds.static_theorem import carried
-from nmm.stepping.drive.settling import SettledStep, too_far
-from nmm.stepping.drive.vanishing_stiffness import vanishing_stiffness
+from nmm.stepping.drive.equilibrium.settling import SettledStep, too_far
+from nmm.stepping.drive.equilibrium.vanishing_stiffness import vanishing_stiffness
 from nmm.stepping.step.anchors import block_name, largest_mover
 from nmm.stepping.step.stepper import Stepper
 

@@ -12,7 +12,7 @@ from nmm.model.discretisation import CurrentDiscretisation
 from nmm.solvers.linear import LinearSolver
 from nmm.solvers.unchecked import product
 from nmm.stepping.step.clock import Clock
-from nmm.stepping.step.contact_search import ContactSearch, SoughtContacts
+from nmm.stepping.step.contact.contact_search import ContactSearch, SoughtContacts
 from nmm.stepping.step.equations import Equations
 from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.trial import Attempt
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from nmm.contact.enforcement.null_space import NullSpace
     from nmm.contact.solution.record import Breaking, BrokenBonds, ContactSolution
     from nmm.controls.path_equation import PathEquation
-    from nmm.stepping.step.contact_path import PathSteps
+    from nmm.stepping.step.contact.contact_path import PathSteps
 
 
 class ContactStepSolver:
@@ -105,7 +105,7 @@ class ContactStepSolver:
 
     def along(self, equations: Equations, path: "PathEquation", reach: float) -> Attempt:
         """Solve a step of statics whose load factor is found with the unknowns (`PathSteps`)."""
-        from nmm.stepping.step.contact_path import PathSteps
+        from nmm.stepping.step.contact.contact_path import PathSteps
 
         self._paths = self._paths or PathSteps(self.search, self._mover)
         return self._paths.attempt(self.solver, equations, path, reach)

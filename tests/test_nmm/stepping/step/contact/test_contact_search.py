@@ -6,7 +6,7 @@ import numpy as np
 
 from nmm.contact.detection.tolerances import CROSSING_SOLUTIONS
 from nmm.stepping.step.clock import Clock
-from nmm.stepping.step.contact_search import ContactSearch, SoughtContacts
+from nmm.stepping.step.contact.contact_search import ContactSearch, SoughtContacts
 
 
 def test_a_step_is_solved_again_for_crossings_a_fixed_number_of_times():

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 from scipy.sparse import eye_array
 
-from nmm.stepping.drive.pace import LONGER, SHORTER, SHORTEST, Pace
+from nmm.stepping.drive.equilibrium.pace import LONGER, SHORTER, SHORTEST, Pace
 
 MODEL = SimpleNamespace(mass=eye_array(2))
 
