@@ -69,6 +69,10 @@ class _WaysToForces:
             quick = self.polished(increment)
             if quick.size <= self.tolerance:
                 return quick
+        elif self.springs.problem.n_contacts * self.tools.options.springs.rare <= len(increment):
+            quick = self.shortly(increment, budget)
+            if quick.size <= self.tolerance:
+                return quick
         # In statics no step is like the last: what goes first is thorough.
         thorough = self.by_cost if self.tools.memory.moving else self.in_order
         found = (thorough if budget.interior else self.alternated)(increment, budget)
@@ -76,6 +80,17 @@ class _WaysToForces:
             end = self.polished(found.increment)
             found = replace(found, increment=end.increment, size=end.size)
         return found
+
+    def shortly(self, increment: Floats, budget: IterationBudget) -> IterationResult:
+        """End of Newton's method after as many solves as one factorisation of it costs.
+
+        Few contacts beside many unknowns, as those of cracks in a body, have few states to find,
+        and a solution with the factor of all springs is dear.
+        """
+        found = self.alternated(increment, replace(budget, cost=self.tools.options.ways.inside))
+        if found.size <= self.tolerance:
+            return found
+        return found.then(self.polished(found.increment))
 
     def by_cost(self, increment: Floats, budget: IterationBudget) -> IterationResult:
         """Best of both ways; the one that cost less in the last steps goes first."""

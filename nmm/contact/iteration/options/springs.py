@@ -59,6 +59,8 @@ class SpringOptions:
     ----------
     few
         Contacts up to which Newton's method is tried first from a start that is near.
+    rare
+        Unknowns for each contact from which Newton's method is tried after a few solves.
     fine
         Relative out-of-balance force (-) at which Newton's method need not go on.
     first
@@ -68,6 +70,7 @@ class SpringOptions:
     """
 
     few: int = 200
+    rare: float = above_zero(20.0)
     fine: float = above_zero(1e-13)
     first: int = above_zero(6)
     loose: float = above_zero(1e-4)
