@@ -18,6 +18,7 @@ from nmm.controls.events import NextEvent
 from nmm.progress import Progress
 from nmm.stepping.control.events import ReachedEvent, next_event
 from nmm.stepping.control.locating import ABOVE, TriedStep, located
+from nmm.stepping.control.other_answers import ahead, taking
 from nmm.stepping.control.position import OnPath, PathEnd
 from nmm.stepping.control.settling import settled
 from nmm.stepping.control.trials import Trials
@@ -38,8 +39,6 @@ if TYPE_CHECKING:
 SMALLEST, CREEPING = 2.0**-12, 20
 # Iterations of a step up to which the next is longer.
 EASY = 8
-# A step from this share of the largest load to below none, by more than that share, is a jump.
-JUMPS_FROM, LEAST = 0.5, 1e-6
 
 
 def run_path(
@@ -67,19 +66,6 @@ def run_path(
         return keep(after)
 
     return until_verdict(at, step, recorder)
-
-
-def _ahead(at: OnPath, found: TriedStep) -> TriedStep:
-    """Return a trial, not converged where it jumps over the unloaded state to loads the other way.
-
-    A control that is not the motion itself may have a second answer there, however short the step.
-    """
-    before, after = at.state.load_factor, found.attempt.state.load_factor
-    jumps = before > JUMPS_FROM * at.peak and after < -LEAST * at.peak
-    if not found.attempt.converged or not jumps:
-        return found
-    sentence = f"the load would turn round in one step, from {before:.6g} to {after:.6g}"
-    return replace(found, attempt=replace(found.attempt, converged=False, sentence=sentence))
 
 
 @dataclass(frozen=True)
@@ -136,14 +122,16 @@ class _Following:
         if self._by_load(at, standing):
             return self._to_event(at)
         step = min(at.advance, self.control.end - at.gone)
-        found = _ahead(at, self.trials.along(standing, self.control.path(standing, step)))
+        found = ahead(at, self.trials.along(standing, self.control.path(standing, step)))
         if not found.attempt.converged:
             return self._shorter(at, step, found.attempt)
         if found.load > 1 + ABOVE:
-            event = self._event_within(standing, found)
+            event = ahead(at, self._event_within(standing, found))
             if not event.attempt.converged:
                 return self._shorter(at, step, event.attempt)
             return self._happened(at, event, step)
+        if self.control.to_origin and not (found := taking(at, found)).attempt.converged:
+            return self._shorter(at, step, found.attempt)
         after = self._accepted(at, found.attempt, found.way)
         if isinstance(after, Attempt):
             return self._shorter(at, step, after)

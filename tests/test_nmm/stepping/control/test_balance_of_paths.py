@@ -5,7 +5,7 @@ import pytest
 
 import nmm
 from nmm.scene.read import parse_scene
-from nmm.stepping.control import following
+from nmm.stepping.control import following, other_answers
 from nmm.stepping.control.settling import settled
 from nmm.stepping.step.trial import Attempt
 
@@ -92,7 +92,8 @@ def test_a_path_whose_reactions_do_not_bear_its_loads_is_unbalanced(monkeypatch)
         return attempt, *stepper.accept(attempt)
 
     monkeypatch.setattr(following, "settled", kept)
-    monkeypatch.setattr(following, "JUMPS_FROM", np.inf)
+    monkeypatch.setattr(other_answers, "JUMPS_FROM", np.inf)
+    monkeypatch.setattr(other_answers, "TAKEN", -np.inf)
     run = nmm.run(parse_scene(SCENE))
     assert out_of_balance(run.history)[-1] > 1e-2
     assert run.summary.status == "unbalanced"

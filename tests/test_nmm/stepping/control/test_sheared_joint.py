@@ -1,0 +1,82 @@
+"""A joint that shear softens under weight, by hand: cohesion and friction over all of it."""
+
+import numpy as np
+import pytest
+
+import nmm
+
+COHESION, FRICTION, PRESSURE, ENERGY = 3e5, 0.5, 1e5, 200.0
+WIDTH = 2 * ENERGY / COHESION
+SHEARED = f"""
+plane = "stress"
+[contact]
+[materials.m]
+young_modulus = 1e10
+poisson_ratio = 0.0
+[interfaces.joint]
+law = "linear_softening"
+bonded = true
+friction_angle = {np.arctan(FRICTION)}
+cohesion = {COHESION}
+tensile_strength = 2e5
+fracture_energy = 50.0
+shear_fracture_energy = {ENERGY}
+[[blocks]]
+name = "low"
+material = "m"
+vertices = [[0, 0], [1, 0], [1, 0.1], [0, 0.1]]
+[[blocks]]
+name = "up"
+material = "m"
+vertices = [[0, 0.1], [1, 0.1], [1, 0.2], [0, 0.2]]
+[[supports]]
+name = "base"
+segment = [[0, 0], [1, 0]]
+fix = ["x", "y"]
+[[loads]]
+name = "weight"
+kind = "edge"
+segment = [[0, 0.2], [1, 0.2]]
+traction = [0, {-PRESSURE}]
+[[loads]]
+name = "push"
+kind = "body"
+block = "up"
+density = [{{way}}, 0]
+[[monitors]]
+name = "up"
+point = [0.5, 0.15]
+block = "up"
+[loading]
+scaled = ["push"]
+until = "failure"
+[loading.control]
+"""
+LED = (
+    'type = "displacement"\nmonitors = ["up"]\ndirection = [{}, 0]\nincrement = 1e-4\nend = 1e-3\n'
+)
+
+
+@pytest.mark.parametrize("way", [1, -1])
+def test_a_joint_bears_cohesion_and_friction_and_takes_both(way: int) -> None:
+    run = nmm.run(nmm.parse_scene(SHEARED.format(way=10 * way) + LED.format(way)))
+    force = run.history["load_factor"]
+    # The push acts half a block above the joint: its pressure, and so its onset, are not even.
+    assert force.max() == pytest.approx(COHESION + FRICTION * PRESSURE, rel=5e-3)
+    slip = 1e-3 - force[-1] * (0.5 * 0.15 + 0.1) / 5e9  # what both blocks are sheared by
+    left = COHESION * (1 - slip / WIDTH)
+    assert force[-1] == pytest.approx(left + FRICTION * PRESSURE, rel=5e-3)
+    taken = (COHESION + left) / 2 * slip + FRICTION * PRESSURE * slip
+    assert run.history["friction_loss"][-1] == pytest.approx(taken, rel=5e-3)
+    assert abs(run.summary.energy_balance or 0.0) < 1e-3
+
+
+def test_a_path_that_turns_back_by_small_steps_shows_no_limit_point() -> None:
+    # Among 42 points that one after the other begin to soften each has an answer in unloading:
+    # "a limit point was passed" at 308 kN, 12 % below the load, "down to" -307 kN.
+    net = '[formulation.cover]\ntype = "triangles"\nsize = 0.1\ndegree = 0\n'
+    led = 'type = "dissipation"\nenergy = 5.0\nend_energy = 230.0\n'
+    run = nmm.run(nmm.parse_scene(SHEARED.format(way=10) + led + net))
+    bears = pytest.approx(COHESION + FRICTION * PRESSURE, rel=2e-2)
+    assert run.summary.status == "failed" or run.summary.failure_factor == bears
+    assert min(run.history["load_factor"]) > 0
