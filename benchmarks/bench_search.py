@@ -9,8 +9,9 @@ import pytest
 import shapely
 
 from integration.polygons import Polygons
+from nmm.contact.detection.contacts import follow
 from nmm.contact.detection.joints import find_joints
-from nmm.contact.detection.narrow_phase import find_contacts, follow
+from nmm.contact.detection.narrow_phase import find_contacts
 from nmm.contact.detection.neighbour_list import NeighbourList
 from nmm.contact.detection.surface import Surface
 from nmm.testing.detection.crossings import find_crossings

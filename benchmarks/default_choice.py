@@ -20,7 +20,7 @@ from whole_scenes import pile
 
 from nmm.formulation import Formulation
 from nmm.results.sink import MemorySink
-from nmm.solvers.threads import one_thread
+from nmm.solvers.threads import OneThread
 from nmm.stepping.prepare import prepare
 from nmm.stepping.simulation import Simulation
 
@@ -95,7 +95,7 @@ def ready(race: Race, variant: Variant) -> Simulation:
 def raced(race: Race, variant: Variant) -> Row:
     """Run to the end or to the end of the budget."""
     made, begun = ready(race, variant), process_time()
-    with one_thread():
+    with OneThread():
         memory: MemorySink = run(made)
     seconds, summary = process_time() - begun, memory.summary
     steps = max(len(memory.rows), 1)

@@ -20,7 +20,7 @@ from whole_scenes import SCENES
 from nmm.formulation import Formulation
 from nmm.results.frame import Frame, Topology
 from nmm.results.summary import Summary
-from nmm.solvers.threads import one_thread
+from nmm.solvers.threads import OneThread
 from nmm.stepping.prepare import prepare
 
 STEP = 1e-3
@@ -72,7 +72,7 @@ def scaled(scene: str, blocks: int, steps: int, penalty: float = 10.0) -> Scaled
     made, begun = SCENES[scene](blocks, steps * STEP), process_time()
     ready = prepare(made, Formulation.model_validate(given))
     first, sink = process_time(), Counting()
-    with one_thread():
+    with OneThread():
         ready.run([sink], lambda share, text: None)
     taken = max(len(sink.at), 1)
     rest = (sink.at[-1] - sink.at[2]) / (taken - 3) if taken > 3 else float("nan")

@@ -10,8 +10,8 @@ from integration.arrays import Floats
 from integration.contraction import contract
 from nmm.assembly.elements import element_matrices
 from nmm.assembly.elements.solid import Solid
-from nmm.assembly.held_volumes.excess import VOLUME, excess, held_pressures
-from nmm.assembly.held_volumes.pressures import Pressures
+from nmm.assembly.projected_volumes.excess import VOLUME, excess, held_pressures
+from nmm.assembly.projected_volumes.pressures import Pressures
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,7 @@ class ElasticSolid(Solid):
     Attributes
     ----------
     projected
-        Whether pressures on patches resist changes of volume (`held_volumes`).
+        Whether pressures on patches resist changes of volume (`projected_volumes`).
     """
 
     projected: bool = False

@@ -7,8 +7,8 @@ import numpy as np
 
 from integration.arrays import Floats
 from integration.rules import PointRule, polygon_rule
-from nmm.assembly.held_volumes.excess import VOLUME
 from nmm.assembly.model import Model
+from nmm.assembly.projected_volumes.excess import VOLUME
 
 Field = Callable[[Floats], Floats]
 

@@ -16,12 +16,11 @@ from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.assembly.tractions.donors import across
-from nmm.constraints.bonded_edges import bonded_stiffness
 from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface, nearest
 from nmm.constraints.nitsche.linear_matter import method_for
 from nmm.constraints.nitsche.nitsche import Nitsche
-from nmm.constraints.shared_edges import EDGE_ORDER, gauss_interface, shared_edges
+from nmm.constraints.shared_edges import EDGE_ORDER, bonded_stiffness, gauss_interface, shared_edges
 from nmm.constraints.springs import Springs, glue_stiffness, joint_springs
 from nmm.constraints.tied_interfaces import TiedInterfaces
 from nmm.constraints.turned_axes import turning

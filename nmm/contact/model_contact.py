@@ -17,7 +17,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.contact.candidates.candidates import Candidates
 from nmm.contact.candidates.held_back import Crossed
-from nmm.contact.detection.narrow_phase import Contacts
+from nmm.contact.detection.contacts import Contacts
 from nmm.contact.detection.tolerances import FIRST_REACH
 from nmm.contact.parts import ContactParts
 from nmm.contact.points.contact_points import ContactPoints, concatenate

@@ -42,7 +42,7 @@ class Contact(ModelContact, Effect):
         """See `Effect.caution`: bodies that are softer than their contact dampers."""
         if not self.laws.damps:
             return ""
-        from nmm.contact.laws.yielding_bodies import yielding_bodies
+        from nmm.contact.laws.dashpots import yielding_bodies
 
         return yielding_bodies(self.laws, self.model)
 

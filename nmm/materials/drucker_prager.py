@@ -11,8 +11,8 @@ from nmm.errors import FormulationError
 from nmm.materials.base import History, Response
 from nmm.materials.frictional import Frictional
 from nmm.materials.plasticity import inelastic
-from nmm.materials.returns.cone_return import SmoothCone, cone_return
-from nmm.materials.returns.planes import ActingPlanes, falling
+from nmm.materials.return_mapping.cone_return import SmoothCone, cone_return
+from nmm.materials.return_mapping.planes import ActingPlanes, falling
 
 MATCHES = ("plane_strain", "compression", "extension")
 

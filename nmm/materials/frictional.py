@@ -11,7 +11,12 @@ from nmm.errors import Fault, FormulationError
 from nmm.materials.base import History, Response
 from nmm.materials.crack_band import SofteningPlasticity, check_residual
 from nmm.materials.plasticity import flowed, grown
-from nmm.materials.returns.planes import ActingPlanes, ReturnedStress, StrengthLoss, largest_cell
+from nmm.materials.return_mapping.planes import (
+    ActingPlanes,
+    ReturnedStress,
+    StrengthLoss,
+    largest_cell,
+)
 
 
 @dataclass(frozen=True)
@@ -38,8 +43,8 @@ class Frictional(SofteningPlasticity):
     -----
     Internal variables: ``plastic_strain`` (4: xx, yy, 2 xy, zz), ``accumulated_plastic_strain``
     (the sum of ``sqrt(2/3 |de|^2)`` of its deviator), ``stress_zz`` (Pa), and where it softens
-    ``softened``, the share of the fall that is done (`nmm.materials.returns.planes`). Where the
-    angles differ, or fall, the tangent is not symmetric.
+    ``softened``, the share of the fall that is done (`nmm.materials.return_mapping.planes`). Where
+    the angles differ, or fall, the tangent is not symmetric.
     """
 
     cohesion: float

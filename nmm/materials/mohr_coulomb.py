@@ -8,8 +8,8 @@ from integration.arrays import Floats
 from nmm.materials.base import History, Response
 from nmm.materials.frictional import Frictional
 from nmm.materials.plasticity import inelastic
-from nmm.materials.returns.planes import ActingPlanes
-from nmm.materials.returns.principal_return import Pyramid, principal_return
+from nmm.materials.return_mapping.planes import ActingPlanes
+from nmm.materials.return_mapping.principal_return import Pyramid, principal_return
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,8 @@ from nmm.errors import FormulationError
 from nmm.materials.base import History, Response
 from nmm.materials.crack_band import SofteningPlasticity, check_residual
 from nmm.materials.plasticity import flowed, inelastic
-from nmm.materials.returns.projected_return import projected_return
-from nmm.materials.returns.radial_return import RadialReturn, radial_return
+from nmm.materials.return_mapping.projected_return import projected_return
+from nmm.materials.return_mapping.radial_return import RadialReturn, radial_return
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Protocol, Self
 import numpy as np
 
 from covers.change.parentage import Parentage
-from nmm.assembly.carried.state import carried
 from nmm.assembly.state import State, initial_state
+from nmm.assembly.transfer.state import carried
 from nmm.effects.base import Effect, Setup
 from nmm.effects.change import Change
 from nmm.model.planning.making import compile_plan, plan_after

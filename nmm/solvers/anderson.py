@@ -7,7 +7,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.compiled import compiled
 from nmm.solvers.kernels.dot import dot
-from nmm.solvers.kernels.gauss import eliminated, substituted
+from nmm.solvers.kernels.gauss import ridged
 
 RIDGE = 1e-12
 """Part of the trace that keeps the least squares regular."""
@@ -101,26 +101,12 @@ def add_step(
 def mixed_step(
     sums: Floats, corrections: Floats, gram: Floats, used: int, correction: Floats, force: Floats
 ) -> Floats:
-    """``correction`` combined with the remembered steps.
-
-    The normal equations are solved by elimination with the largest pivot; where they are not
-    finite or vanish the correction stays as it is.
-    """
-    trace = 0.0
-    for k in range(used):
-        trace += gram[k, k]
-    result = correction.copy()
-    if used == 0 or not (np.isfinite(trace) and trace > 0.0):
-        return result
+    """``correction`` combined with the remembered steps; as it is where these say nothing."""
     table, load = np.empty((used, used)), np.empty(used)
     for k in range(used):
         table[k, :] = gram[k, :used]
-        table[k, k] += RIDGE * trace
         load[k] = -dot(corrections[k], force)
-    order = np.arange(used)
-    if not eliminated(table, order, True):
-        return result
-    shares = substituted(table, order, load)
+    result, shares = correction.copy(), ridged(table, load, RIDGE, True)
     for k in range(used):
         for i in range(len(result)):
             result[i] -= shares[k] * sums[k, i]

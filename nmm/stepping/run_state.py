@@ -101,8 +101,7 @@ def _contact_points(run: RunState) -> Iterator["ContactPoints"]:
 _PLACES = {
     "integration.polygons": ("Polygons",),
     "nmm.assembly.state": ("State", "Frames"),
-    "nmm.contact.detection.narrow_phase": ("Contacts",),
-    "nmm.contact.detection.face_contacts": ("FaceContacts",),
+    "nmm.contact.detection.contacts": ("Contacts", "FaceContacts"),
     "nmm.effects.motion.reactions": ("Reactions",),
     "nmm.contact.solution.record": ("ContactRecord", "ContactCarried"),
     "nmm.contact.points.contact_points": ("ContactPoints",),

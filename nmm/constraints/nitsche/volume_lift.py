@@ -1,7 +1,7 @@
 """Pressures on edges that Nitsche's method holds: a gap counts as volume of the patches beside it.
 
-With the volumes ``B u`` of the pressures' functions (`nmm.assembly.held_volumes`) and ``G g`` their
-integrals with the gap ``g`` along the outward normal, the terms
+With the volumes ``B u`` of the pressures' functions (`nmm.assembly.projected_volumes`) and ``G g``
+their integrals with the gap ``g`` along the outward normal, the terms
 
     -(G g)^T D B u + s (G g)^T D (G g) / 2,     D = lambda M^-1,
 

@@ -41,7 +41,7 @@ class Direction:
         (k,) average traction times area (N).
     gaps, pulls
         (k, n) rows of both.
-    held
+    penalty
         (k, k) penalty times area on the jumps that it counts (N/m), symmetric.
     """
 
@@ -49,28 +49,28 @@ class Direction:
     pull: Floats
     gaps: csr_array
     pulls: csr_array
-    held: csr_array
+    penalty: csr_array
 
     @property
     def answers(self) -> csr_array:
         """Rows (k, n) of the forces that work on the gaps, by half of those of the penalty."""
-        return csr_array(self.pulls + (self.held / 2) @ self.gaps)
+        return csr_array(self.pulls + (self.penalty / 2) @ self.gaps)
 
     @property
     def push(self) -> Floats:
         """Forces on the unknowns (n,) at the start, with the sign changed."""
-        force = self.pull + self.held @ self.gap
+        force = self.pull + self.penalty @ self.gap
         return np.asarray(self.gaps.T @ force + self.pulls.T @ self.gap)
 
     def force(self, increment: Floats) -> Floats:
         """Return the forces (k,) in N after an increment (n,)."""
         pull, gap = self.pull + self.pulls @ increment, self.gap + self.gaps @ increment
-        return np.asarray(pull + self.held @ gap)
+        return np.asarray(pull + self.penalty @ gap)
 
     @property
     def energy(self) -> Floats:
         """The energies (k,) at the start (J); they may be negative."""
-        return np.asarray(self.gap * (self.pull + self.held @ self.gap / 2))
+        return np.asarray(self.gap * (self.pull + self.penalty @ self.gap / 2))
 
 
 @dataclass(frozen=True)
@@ -111,9 +111,9 @@ class TiedBonds(Transform):
         tied = contacts.take(index)
         more = bonds.added(tied, state.frames, stresses, state.time if time is None else time)
         at = bonds.row(tied)
-        held = counting(tied, bonds.area[at] * bonds.penalty[at])
+        penalty = counting(tied, bonds.area[at] * bonds.penalty[at])
         normal, tangent = (
-            Direction(gap, force @ state.deformation + known, gaps[index], force, held)
+            Direction(gap, force @ state.deformation + known, gaps[index], force, penalty)
             for gap, force, known, gaps in zip(
                 (tied.gap, tied.slip),
                 bonds.force_rows(tied, state.frames),

@@ -11,9 +11,9 @@ from integration.contraction import largest
 from nmm.assembly.state import State
 from nmm.contact.candidates.held_back import Crossed, held_back, joined, pushing
 from nmm.contact.candidates.partners import Partners
+from nmm.contact.detection.contacts import Contacts, follow
 from nmm.contact.detection.crossing import Motion, crossings_in, over_seams
-from nmm.contact.detection.narrow_phase import Contacts, follow
-from nmm.contact.detection.pair_keys import pair_key
+from nmm.contact.detection.surface import pair_key
 from nmm.contact.detection.tolerances import FLUSH
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.failing_bonds import strength

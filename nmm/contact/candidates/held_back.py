@@ -10,8 +10,7 @@ import numpy as np
 
 from integration.arrays import Ints
 from nmm.contact.detection.measures import measure
-from nmm.contact.detection.pair_keys import pair_key
-from nmm.contact.detection.surface import Surface
+from nmm.contact.detection.surface import Surface, pair_key
 from nmm.contact.solution.record import ContactSolution
 
 Crossed = tuple[Ints, Ints]

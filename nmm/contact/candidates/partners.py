@@ -8,8 +8,9 @@ from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.contact.candidates.pairs import GLUED, MISSING, Pairs, no_interface
+from nmm.contact.detection.contacts import Contacts
 from nmm.contact.detection.crossing import Motion, crossings_in, motion_of
-from nmm.contact.detection.narrow_phase import Contacts, find_contacts, with_pairs
+from nmm.contact.detection.narrow_phase import find_contacts, with_pairs
 from nmm.contact.detection.neighbour_list import NeighbourList
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import DEPTH, FLUSH, SKIN

@@ -75,3 +75,13 @@ class Surface:
     def at(self, edge: Ints, parameter: Floats) -> Floats:
         """Points (m, 2) at fractions of edges."""
         return self.start[edge] + parameter[:, None] * (self.end[edge] - self.start[edge])
+
+
+def pair_key(surface: Surface, vertex: Ints, edge: Ints) -> Ints:
+    """Identity (m,) of pairs of a vertex and an edge: ``vertex * n + edge``."""
+    return vertex * len(surface) + edge
+
+
+def unordered_key(one: Ints, other: Ints, n: int) -> Ints:
+    """Identity (m,) of pairs of two edges, or two bodies, of ``n`` in all, in either order."""
+    return np.minimum(one, other) * n + np.maximum(one, other)

@@ -13,7 +13,7 @@ from nmm.compiled import compiled
 from nmm.contact.islands.partition import Islands, balances
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.contact.problem.residual_kernel import SpringColumns, residual
-from nmm.solvers.kernels.gauss import eliminated, substituted
+from nmm.solvers.kernels.gauss import ridged
 
 MIX_RIDGE = 1e-10
 """Part of the trace that keeps the least squares regular where the last steps were alike."""
@@ -88,44 +88,24 @@ def _mixed(points: Floats, forces: Floats, weight: Floats, island: Ints, islands
     """Mix (n,) of ``points`` (k, n) of the least weighted force, on lines from the first.
 
     Each of the ``islands`` is mixed on its own. The normal equations are positive definite by their
-    ridge; where they are not finite or vanish it is the first point.
+    ridge; where they say nothing it is the first point.
     """
     count, n = points.shape[0] - 1, len(weight)
-    tables = np.zeros((islands, count, count + 1))
+    tables, loads = np.zeros((islands, count, count)), np.zeros((islands, count))
     for k in range(n):
-        square, table = weight[k] ** 2, tables[island[k]]
+        square, table, load = weight[k] ** 2, tables[island[k]], loads[island[k]]
         for i in range(count):
             way = forces[i + 1, k] - forces[0, k]
-            table[i, count] -= square * way * forces[0, k]
+            load[i] -= square * way * forces[0, k]
             for j in range(i + 1):
                 table[i, j] += square * way * (forces[j + 1, k] - forces[0, k])
     for one in range(islands):
-        _solved(tables[one])
+        for i in range(count):
+            for j in range(i):
+                tables[one, j, i] = tables[one, i, j]
+        loads[one] = ridged(tables[one], loads[one], MIX_RIDGE, False)
     found: Floats = points[0].copy()
     for k in range(n):
-        table = tables[island[k]]
         for i in range(count):
-            found[k] += table[i, count] * (points[i + 1, k] - points[0, k])
+            found[k] += loads[island[k], i] * (points[i + 1, k] - points[0, k])
     return found
-
-
-@compiled
-def _solved(table: Floats) -> None:
-    """Put the solution of symmetric equations (k, k + 1), given below, in their last column."""
-    count = len(table)
-    trace = 0.0
-    for i in range(count):
-        trace += table[i, i]
-        for j in range(i):
-            table[j, i] = table[i, j]
-    load, order = table[:, count].copy(), np.empty(count, dtype=np.int64)
-    for i in range(count):
-        order[i], table[i, count] = i, 0.0
-    if not (np.isfinite(trace) and trace > 0.0):
-        return
-    for i in range(count):
-        table[i, i] += MIX_RIDGE * trace
-    if eliminated(table, order, False):
-        found = substituted(table, order, load)
-        for i in range(count):
-            table[i, count] = found[i]

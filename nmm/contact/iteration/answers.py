@@ -6,8 +6,8 @@ from integration.arrays import Floats
 from nmm.contact.iteration.cut_spring_solver import solve_springs
 from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.answer_kernel import ended
+from nmm.contact.problem.balance import rounding
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
-from nmm.contact.problem.rounding import rounding
 from nmm.contact.problem.step_problem import StepAnswer, Verdict
 from nmm.errors import SolveError
 from nmm.solvers.linear import LinearSolver

@@ -106,7 +106,7 @@ class _WaysToForces:
                 ways.alternation_met()
             return found
         finishes = ways.finishes
-        goals = (options.springs.loose, self.tolerance) if finishes else (self.tolerance,)
+        goals = (options.springs.crossover, self.tolerance) if finishes else (self.tolerance,)
         rest = replace(budget, factors=options.springs.first, cost=options.ways.finish)
         ended = self.inside(found, goals, rest)
         if not ended.size <= self.tolerance:
@@ -123,7 +123,7 @@ class _WaysToForces:
         found = self.alternated(increment, first)
         if found.size <= self.tolerance:
             return found
-        return self.inside(found, (steer.loose, self.tolerance), first)
+        return self.inside(found, (steer.crossover, self.tolerance), first)
 
     def alternated(self, increment: Floats, budget: IterationBudget) -> IterationResult:
         """Best of modified Newton steps with two factors."""

@@ -13,8 +13,7 @@ from integration.contraction import contract
 from nmm.assembly.model import Model
 from nmm.assembly.tractions.donors import across
 from nmm.contact.detection.joints import Joints, find_joints, joint_ends, joint_points
-from nmm.contact.detection.pair_keys import pair_key
-from nmm.contact.detection.surface import Surface
+from nmm.contact.detection.surface import Surface, pair_key
 from nmm.contact.detection.tolerances import ANGLE, JOINT
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.points.boundary_points import tangents

@@ -18,12 +18,17 @@ import numpy as np
 from covers.approximation.manifold import Manifold
 from integration.arrays import Bools, Floats, Ints
 from integration.plane_vectors import dot
-from nmm.contact.detection.face_contacts import FaceContacts
+from nmm.contact.detection.contacts import (
+    FACE,
+    VERTEX_EDGE,
+    VERTEX_VERTEX,
+    Contacts,
+    FaceContacts,
+    joined,
+)
 from nmm.contact.detection.joints import between, interval
 from nmm.contact.detection.measures import rules_of
-from nmm.contact.detection.narrow_phase import FACE, VERTEX_EDGE, VERTEX_VERTEX, Contacts, joined
-from nmm.contact.detection.pair_keys import pair_key, unordered_key
-from nmm.contact.detection.surface import Surface
+from nmm.contact.detection.surface import Surface, pair_key, unordered_key
 from nmm.contact.detection.tolerances import ANGLE, FACE_WALK, SAME_POINT
 
 # Nodes in [0, 1] and weights of Lobatto's rules: exact to degree 1, 3 and 5.

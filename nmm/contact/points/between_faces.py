@@ -35,15 +35,14 @@ class EdgeShares:
     b: Floats
 
     @classmethod
-    def of(cls, points: ContactPoints, length: Floats) -> "EdgeShares":
-        """Return those of points; ``length`` (n,) of the edges where bodies were laid (m)."""
-        return cls.between(points, length, points.is_joint[:, None])
+    def of(cls, points: ContactPoints, length: Floats, alike: Bools | None = None) -> "EdgeShares":
+        """Return those of points; ``length`` (n,) of the edges where bodies were laid (m).
 
-    @classmethod
-    def between(cls, points: ContactPoints, length: Floats, alike: Bools) -> "EdgeShares":
-        """Return the same with the mean of both edges where faces are ``alike`` (m, 1)."""
-        a = np.where(alike, -0.5, 0.0) / length[points.edge_a, None]
-        b = np.where(alike, 0.5, 1.0) / length[points.edge_b, None]
+        Lines are the mean of both edges where faces are ``alike`` (m, 1); None: in joints.
+        """
+        both = points.is_joint[:, None] if alike is None else alike
+        a = np.where(both, -0.5, 0.0) / length[points.edge_a, None]
+        b = np.where(both, 0.5, 1.0) / length[points.edge_b, None]
         return cls(a, b)
 
     def along(self, points: ContactPoints, surface: Surface) -> Floats:

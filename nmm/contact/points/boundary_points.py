@@ -7,7 +7,6 @@ geometry that the search sees, whatever the degree of the approximation.
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
@@ -17,25 +16,9 @@ from integration.arrays import Floats, Ints
 from nmm.assembly.material_points import MaterialPoints, material_points
 from nmm.assembly.state import Frames
 from nmm.contact.detection.surface import Surface
+from nmm.contact.points.side_kernels import EdgeRows, places
 
 _UPRIGHT = np.zeros(0)
-
-
-class EdgeRows(NamedTuple):
-    """Rows at both ends of edges, in the axes of their bodies, as compiled code takes them.
-
-    Attributes
-    ----------
-    unknowns, start, end
-        (n, L), and (n, 2, L) of the starts and the ends.
-    body
-        (n,) of the edges.
-    """
-
-    unknowns: Ints
-    start: Floats
-    end: Floats
-    body: Ints
 
 
 @dataclass(frozen=True)
@@ -56,8 +39,6 @@ class Sides:
 
     def places(self, frames: Frames, deformation: Floats) -> Floats:
         """Return where the starts of the edges are now (n, 2), by compiled code."""
-        from nmm.contact.points.places import places
-
         tilt = _UPRIGHT if frames.tilt is None else frames.tilt
         return places(*self._columns, frames.centre, frames.rotation, tilt, deformation)
 

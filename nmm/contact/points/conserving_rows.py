@@ -21,6 +21,7 @@ from scipy.sparse import csr_array
 
 from covers.approximation.rows import Rows, row_matrix
 from integration.arrays import Bools, Floats
+from integration.plane_vectors import cross, dot
 from nmm.assembly.material_points import MaterialPoints
 from nmm.assembly.state import State
 from nmm.contact.points.bent_faces import Line, face_lines
@@ -92,10 +93,10 @@ def slopes(along: Pair, apart: Pair, joint: Bools) -> tuple[Pair, Pair]:
     half, way = mean(along), mean(apart)
     one, other = (_norm(t) for t in along)
     inverse, over = (1 / one + 1 / other) / 2, one * other * (one + other)
-    stretched = mean(_each(_cross, apart, along)) / over
+    stretched = mean(_each(cross, apart, along))[:, None] / over
     gap = -inverse * tangents(way) - 2 * stretched * half, inverse * tangents(half)
     # A joint slips as it opens; along an edge that stretches, places stretch.
-    length, place = (one + other) / 2, mean(_each(_dot, apart, along))
+    length, place = (one + other) / 2, mean(_each(dot, apart, along))[:, None]
     inverse = np.where(joint, inverse, length * (one**-2 + other**-2) / 2)
     stretched = np.where(joint, place / over, length * place / (one * other) ** 2)
     slip = -inverse * way + 2 * stretched * half, -inverse * half
@@ -132,14 +133,6 @@ def mean(ends: Pair) -> Floats:
 def _each(product: Callable[[Floats, Floats], Floats], one: Pair, other: Pair) -> Pair:
     """What two vectors at both ends give."""
     return product(one[0], other[0]), product(one[1], other[1])
-
-
-def _dot(one: Floats, other: Floats) -> Floats:
-    return np.asarray(np.einsum("ij,ij->i", one, other)[:, None])
-
-
-def _cross(one: Floats, other: Floats) -> Floats:
-    return np.asarray(one[:, :1] * other[:, 1:] - one[:, 1:] * other[:, :1])
 
 
 def _norm(vector: Floats) -> Floats:

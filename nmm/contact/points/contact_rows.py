@@ -12,6 +12,7 @@ from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.half_way.mean_motion import MeanMotion
 from nmm.contact.points.joint_points import JointSites
+from nmm.contact.points.side_kernels import side_rows
 from nmm.contact.problem.row_products import pushed
 from nmm.solvers.unchecked import made_of
 
@@ -55,11 +56,10 @@ def contact_rows(
 
     ``turn`` adds what comes of lines and bodies that turn.
     """
-    from nmm.contact.points.rows import side_rows
-
     table = sides.table if sites is None else sites.table
     columns, *values = side_rows(
-        *(table.unknowns, table.start, table.end, frames.rotation, table.body),
+        table,
+        frames.rotation,
         (contacts.edge_a, contacts.edge_b) if sites is None else sites.rows_of(contacts),
         (contacts.parameter_a, contacts.parameter_b),
         contacts.normal,

@@ -10,10 +10,9 @@ import numpy as np
 from integration.arrays import Bools, Floats, Ints
 from integration.contraction import contract
 from nmm.assembly.model import Model
+from nmm.contact.detection.contacts import Contacts
 from nmm.contact.detection.joints import Joints, find_joints, joint_ends, joint_points
-from nmm.contact.detection.narrow_phase import Contacts
-from nmm.contact.detection.pair_keys import pair_key, unordered_key
-from nmm.contact.detection.surface import Surface
+from nmm.contact.detection.surface import Surface, pair_key, unordered_key
 from nmm.contact.detection.tolerances import JOINT_LEFT, WHOLLY_HELD
 from nmm.contact.points.between_faces import JointFaces
 from nmm.contact.points.bonded_cracks import BondedCracks, refuse_unbonded

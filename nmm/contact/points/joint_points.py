@@ -14,8 +14,9 @@ from integration.arrays import Floats, Ints
 from nmm.assembly.material_points import MaterialPoints, material_points
 from nmm.assembly.state import Frames
 from nmm.contact.detection.tolerances import SAME_ROWS
-from nmm.contact.points.boundary_points import EdgeRows, Sides
+from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.side_kernels import EdgeRows
 
 
 @dataclass(frozen=True)

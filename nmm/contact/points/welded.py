@@ -11,8 +11,7 @@ from scipy.sparse import csr_array
 
 from covers.cutting.cut_boundary import CutBoundary
 from integration.arrays import Bools, Ints
-from nmm.contact.detection.face_contacts import FaceContacts
-from nmm.contact.detection.narrow_phase import Contacts
+from nmm.contact.detection.contacts import Contacts, FaceContacts
 from nmm.contact.points.boundary_points import Sides
 from nmm.solvers.unchecked import largest
 

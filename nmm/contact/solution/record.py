@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 
 from integration.arrays import Floats, Ints
-from nmm.contact.detection.narrow_phase import Contacts
+from nmm.contact.detection.contacts import Contacts
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.contact_rows import ContactRows
 from nmm.contact.points.joint_book import JointBook

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.assembly.carried.history import nearest_points
 from nmm.assembly.matter import INITIAL, STRESS, SWELLING, Matter
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressPoints, nearest
+from nmm.assembly.transfer.history import nearest_points
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.errors import FormulationError
 

@@ -17,7 +17,7 @@ from integration.arrays import Floats
 from nmm.errors import FormulationError
 from nmm.materials.base import History, Response
 from nmm.materials.elastic import Elastic
-from nmm.materials.returns.radial_return import TWICE
+from nmm.materials.return_mapping.radial_return import TWICE
 
 MEAN = np.array([1.0, 1.0, 0.0, 1.0])
 # From strain (xx, yy, 2 xy, zz) to the deviator (xx, yy, xy, zz) of the tensor.

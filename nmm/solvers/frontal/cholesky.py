@@ -8,7 +8,7 @@ from scipy.sparse import csc_array
 from nmm.solvers.factor import Decomposition
 from nmm.solvers.frontal.frontal_factor import FrontalFactor
 from nmm.solvers.frontal.lu import FrontalLU
-from nmm.solvers.frontal.metis import ordering
+from nmm.solvers.frontal.ordering import orders
 from nmm.solvers.frontal.symbolic import symmetric_plan
 from nmm.solvers.libraries.superlu import DefiniteSolver, SuperLU
 from nmm.solvers.linear import sorted_rows
@@ -35,7 +35,7 @@ class Cholesky(DefiniteSolver):
         return self.unsymmetric().decompose(matrix) if found is None else found
 
     def describe(self, unknowns: int) -> str:
-        return f"{self.name} with orders of {ordering()}"
+        return f"{self.name} with orders of {orders()}"
 
     def unsymmetric(self) -> FrontalLU:
         """LU on the same fronts, refined twice."""

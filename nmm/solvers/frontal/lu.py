@@ -10,7 +10,7 @@ from scipy.sparse import csc_array
 from integration.arrays import Floats
 from nmm.solvers.factor import Decomposition
 from nmm.solvers.frontal.frontal_factor import FrontalFactor
-from nmm.solvers.frontal.metis import ordering
+from nmm.solvers.frontal.ordering import orders
 from nmm.solvers.frontal.symbolic import any_plan
 from nmm.solvers.libraries.superlu import DefiniteSolver, SuperLU
 from nmm.solvers.linear import sorted_rows
@@ -42,7 +42,7 @@ class FrontalLU(DefiniteSolver):
         return SuperLU(self.refinements, self.shift).unsymmetric().decompose(matrix)
 
     def describe(self, unknowns: int) -> str:
-        return f"{self.name} with orders of {ordering()}"
+        return f"{self.name} with orders of {orders()}"
 
     def unsymmetric(self) -> "FrontalLU":
         """Return this solver: it is for such matrices."""

@@ -1,6 +1,8 @@
 """Order in which nodes are eliminated: minimum degree, dissected first where that saves work."""
 
 from dataclasses import dataclass
+from functools import cache
+from typing import Any
 
 import numpy as np
 from scipy.sparse import csc_array
@@ -10,7 +12,7 @@ from integration.permutations import inverse
 from integration.ragged import offsets
 from nmm.solvers.frontal.column_structure import elimination_tree, structures
 from nmm.solvers.frontal.dissection import dissect
-from nmm.solvers.frontal.metis import metis, metis_order
+from nmm.solvers.libraries.optional import METIS
 
 WORTH = 3e5
 """Multiplications a node from which on a dissection is tried: it takes as long as these, and saves
@@ -82,3 +84,25 @@ def _minimum_degree(graph_ptr: Index, graph: Index) -> Ints:
         options={"SymmetricMode": True},
     )
     return np.argsort(found.perm_c).astype(np.int64)
+
+
+@cache
+def metis() -> Any:
+    """Return the package pymetis; None where it is not installed or does not load."""
+    return METIS.load("cholesky") if METIS.loads else None
+
+
+def orders() -> str:
+    """Name of what dissects large graphs, for summaries."""
+    return "METIS" if metis() is not None else "nested dissection of its own"
+
+
+def metis_order(ptr: Index, graph: Index, weight: Ints) -> Ints:
+    """Order of elimination of a graph (Karypis, Kumar 1998), given as to `dissect`."""
+    owner = np.repeat(np.arange(len(ptr) - 1), np.diff(ptr))
+    others = graph != owner
+    starts = offsets(np.bincount(owner[others], minlength=len(ptr) - 1))
+    package = metis()
+    adjacency = package.CSRAdjacency(starts.astype(np.int32), graph[others])
+    order, _ = package.nested_dissection(adjacency, vweights=weight.astype(np.int32))
+    return np.asarray(order, dtype=np.int64)

@@ -49,3 +49,21 @@ def substituted(triangles: Floats, order: Ints, load: Floats) -> Floats:
             found[i] -= triangles[i, j] * found[j]
         found[i] /= triangles[i, i]
     return found
+
+
+@compiled
+def ridged(table: Floats, load: Floats, ridge: float, exchanges: bool) -> Floats:
+    """Solution (n,) of normal equations (n, n), with a share of their trace put on their diagonal.
+
+    It is zero where they are not finite or vanish.
+    """
+    trace = 0.0
+    for k in range(len(load)):
+        trace += table[k, k]
+    order = np.arange(len(load))
+    if np.isfinite(trace) and trace > 0.0:
+        for k in range(len(load)):
+            table[k, k] += ridge * trace
+        if eliminated(table, order, exchanges):
+            return substituted(table, order, load)
+    return np.zeros(len(load))

@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from nmm.assembly.carried.state import carried
 from nmm.assembly.state import State
+from nmm.assembly.transfer.state import carried
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change

@@ -12,15 +12,15 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from integration.plane_vectors import cross, dot
+from nmm.contact.detection.contacts import Contacts
 from nmm.contact.detection.measures import (
     flush_distance,
     measure,
     rules_of,
     thinner,
 )
-from nmm.contact.detection.narrow_phase import Contacts, contacts_of
-from nmm.contact.detection.pair_keys import pair_key
-from nmm.contact.detection.surface import Surface
+from nmm.contact.detection.narrow_phase import contacts_of
+from nmm.contact.detection.surface import Surface, pair_key
 from nmm.contact.detection.tolerances import Rules
 from nmm.testing.detection.flush import Covers, convex_vertices, find_covers, leaves, rays, shielded
 

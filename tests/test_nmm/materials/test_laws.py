@@ -152,7 +152,7 @@ def test_pure_shear_yields_at_the_stress_over_the_root_of_three(plane):
 
 def test_plane_stress_is_the_solid_without_stress_across():
     # Against the radial return with the strain across searched by bisection: another algorithm.
-    from nmm.materials.returns.radial_return import radial_return
+    from nmm.materials.return_mapping.radial_return import radial_return
 
     law, strain = STEEL, np.array([[3e-3, -1e-3, 2e-3]])
     constants = (law.young_modulus, law.poisson_ratio, law.yield_stress, law.hardening_modulus)

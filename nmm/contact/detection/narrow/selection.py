@@ -92,7 +92,7 @@ def _contacts(
     motion: Floats,
     rules: Rules,
 ) -> tuple[bool, Columns]:
-    """Whether both lists rise, and if so the columns of `narrow_phase.Contacts`."""
+    """Whether both lists rise, and if so the columns of `contacts.Contacts`."""
     offset, rising = offsets(vertex, edge, len(start))
     for k in range(1, len(last)):
         rising &= last[k] >= last[k - 1]
@@ -107,7 +107,7 @@ def _contacts(
 def find(
     surface: Surface, vertex: Ints, edge: Ints, last: Ints, motion: Floats, rules: Rules
 ) -> Columns:
-    """Columns of `narrow_phase.Contacts`; candidates in any order, ``last`` keys in any order."""
+    """Columns of `contacts.Contacts`; candidates in any order, ``last`` keys in any order."""
     start, end = np.ascontiguousarray(surface.start), np.ascontiguousarray(surface.end)
     rings = start, end, surface.body, surface.next, surface.previous
     rising, columns = _contacts(*rings, vertex, edge, last, motion, rules)

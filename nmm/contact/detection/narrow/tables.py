@@ -13,7 +13,7 @@ from nmm.contact.detection.tolerances import Rules
 Small = npt.NDArray[np.int8]
 """States of rows."""
 Columns = tuple[Ints, Ints, Floats, Floats, Floats, Ints, Ints, Ints, Ints]
-"""Those of `narrow_phase.Contacts`."""
+"""Those of `contacts.Contacts`."""
 
 
 class EdgesOfVertex(NamedTuple):
@@ -112,7 +112,7 @@ def describe(
     gap: Floats,
     rules: Rules,
 ) -> Columns:
-    """Columns of `narrow_phase.Contacts` for the kept rows."""
+    """Columns of `contacts.Contacts` for the kept rows."""
     m, n = len(rows), len(shape)
     v, e, key = np.empty(m, np.int64), np.empty(m, np.int64), np.empty(m, np.int64)
     body, corner = np.empty(m, np.int64), np.empty(m, np.int64)

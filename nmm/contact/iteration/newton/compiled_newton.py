@@ -114,16 +114,17 @@ def loop(
             best, best_force, best_size = at, force, new_size
         passes += 1
         sizes[passes] = best_size
-        if lost(sizes, passes, patience, tolerance):
+        if lost(sizes[: passes + 1], patience, tolerance):
             break
     return best, best_force, best_size, solves
 
 
 @compiled
-def lost(sizes: Floats, passes: int, patience: tuple[float, float, int], tolerance: float) -> bool:
-    """Whether the best ``sizes`` of so many passes, one a solve, forecast too many solves."""
+def lost(sizes: Floats, patience: tuple[float, float, int], tolerance: float) -> bool:
+    """Whether the best ``sizes`` so far, one a solve, forecast too many solves."""
     ahead, below, look = patience
-    if ahead < 0 or passes < look or not sizes[passes] < below:
+    last = len(sizes) - 1
+    if ahead < 0 or last < look or not sizes[last] < below:
         return False
-    gain = np.log(sizes[passes - look] / sizes[passes]) / look
-    return not gain * ahead >= np.log(sizes[passes] / tolerance)
+    gain = np.log(sizes[last - look] / sizes[last]) / look
+    return not gain * ahead >= np.log(sizes[last] / tolerance)

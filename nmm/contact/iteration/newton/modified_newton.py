@@ -84,7 +84,7 @@ class ModifiedNewton:
             if found.size < self.residual.size:
                 self.increment, self.residual = at, found
             sizes.append(self.residual.size)
-            if compiled_newton.lost(np.array(sizes), len(sizes) - 1, terms, tolerance):
+            if compiled_newton.lost(np.array(sizes), terms, tolerance):
                 break
         return self.residual.size <= tolerance
 

@@ -65,15 +65,16 @@ class SpringOptions:
         Relative out-of-balance force (-) at which Newton's method need not go on.
     first
         Most factors of acting springs where the interior point has found most states.
-    loose
-        Out-of-balance force (-) at which the interior point has found most states.
+    crossover
+        Out-of-balance force (-) at which the interior point has found most states, and modified
+        Newton takes over.
     """
 
     few: int = 200
     rare: float = above_zero(20.0)
     fine: float = above_zero(1e-13)
     first: int = above_zero(6)
-    loose: float = above_zero(1e-4)
+    crossover: float = above_zero(1e-4)
 
 
 @dataclass(frozen=True)

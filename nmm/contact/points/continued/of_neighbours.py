@@ -9,7 +9,7 @@ from collections.abc import Callable
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.contact.detection.pair_keys import unordered_key
+from nmm.contact.detection.surface import unordered_key
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 
 

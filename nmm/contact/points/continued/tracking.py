@@ -7,8 +7,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from integration.contraction import every
-from nmm.contact.detection.face_contacts import FaceContacts
-from nmm.contact.detection.narrow_phase import Contacts
+from nmm.contact.detection.contacts import Contacts, FaceContacts
 from nmm.contact.detection.surface import Surface
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.continued.predecessors import Predecessors

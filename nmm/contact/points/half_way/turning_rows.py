@@ -69,7 +69,7 @@ def turning_rows(
     point, foot, faces = _acting(contacts, sides, bends)
     # Between two faces neither side is the first.
     inside = (contacts.parameter_a > 0)[:, None]
-    shares = EdgeShares.between(contacts, sides.length, inside)
+    shares = EdgeShares.of(contacts, sides.length, inside)
     of_a, of_b = (between(head, tail, ends) for head, tail in faces)
     along = shares.a * of_a[0] + shares.b * of_b[0], shares.a * of_a[1] + shares.b * of_b[1]
     near, whole, moments = [], [], []

@@ -7,16 +7,11 @@ import pytest
 import shapely
 
 from integration.polygons import Polygons
+from nmm.contact.detection.contacts import VERTEX_VERTEX, Contacts, follow
 from nmm.contact.detection.joints import find_joints, joint_ends
-from nmm.contact.detection.narrow_phase import (
-    VERTEX_VERTEX,
-    Contacts,
-    find_contacts,
-    follow,
-    pair_key,
-)
+from nmm.contact.detection.narrow_phase import find_contacts
 from nmm.contact.detection.neighbour_list import NeighbourList
-from nmm.contact.detection.surface import Surface
+from nmm.contact.detection.surface import Surface, pair_key
 from nmm.testing.detection.narrow_arrays import find_by_arrays
 from nmm.testing.detection.search import polygon_surface
 

@@ -7,6 +7,8 @@ import pytest
 
 from nmm.contact.islands.warm_start import start_from
 from nmm.contact.iteration.memory import Memory
+from nmm.contact.iteration.newton.compiled_newton import lost as forecast
+from nmm.contact.iteration.newton.compiled_newton import terms
 from nmm.contact.iteration.options import Patience
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.testing.contact_oracle import random_problem
@@ -51,6 +53,6 @@ def test_a_second_solution_of_a_step_takes_the_place_of_the_first() -> None:
 def test_a_search_that_halves_its_error_is_given_up_when_too_many_halves_lie_ahead(
     ahead: float, lost: bool
 ) -> None:
-    sizes = [2.0 ** (20 - k) for k in range(6)]  # 2^15 left above a tolerance of 2^-5
-    assert Patience(ahead).lost(sizes, 2.0**-5) is lost
-    assert not Patience(ahead, below=1.0).lost(sizes, 2.0**-5)
+    sizes = 2.0 ** (20 - np.arange(6))  # 2^15 left above a tolerance of 2^-5
+    assert forecast(sizes, terms(Patience(ahead)), 2.0**-5) is lost
+    assert not forecast(sizes, terms(Patience(ahead, below=1.0)), 2.0**-5)

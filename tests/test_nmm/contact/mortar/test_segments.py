@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from integration.polygons import Polygons
-from nmm.contact.detection.narrow_phase import FACE, find_contacts, follow
+from nmm.contact.detection.contacts import FACE, follow
+from nmm.contact.detection.narrow_phase import find_contacts
 from nmm.contact.detection.neighbour_list import NeighbourList
 from nmm.contact.mortar.segments import faced
 from nmm.testing.detection.search import polygon_surface

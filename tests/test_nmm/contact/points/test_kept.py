@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from nmm.contact.detection.narrow_phase import Contacts
+from nmm.contact.detection.contacts import Contacts
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.continued.predecessors import Predecessors
 from nmm.contact.points.continued.reference_gap import counted, counted_on

@@ -6,7 +6,7 @@ import pytest
 from covers.approximation.rows import Rows
 from nmm.assembly.material_points import MaterialPoints
 from nmm.assembly.state import Frames
-from nmm.contact.points.places import places
+from nmm.contact.points.side_kernels import places
 
 
 @pytest.mark.parametrize("length", [2, 3, 6, 7, 12, 20])

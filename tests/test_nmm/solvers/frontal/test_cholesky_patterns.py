@@ -7,7 +7,7 @@ from scipy.sparse import csc_array, eye_array, kron
 from integration.arrays import Floats
 from nmm.solvers.frontal.cholesky import Cholesky
 from nmm.solvers.frontal.elimination import Fronts
-from nmm.solvers.frontal.symmetry import skew
+from nmm.solvers.frontal.symbolic import skew
 from nmm.testing.solvers import is_cholesky
 
 

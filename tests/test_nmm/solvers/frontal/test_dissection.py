@@ -10,7 +10,7 @@ from integration.arrays import Ints
 from nmm.solvers.frontal import ordering
 from nmm.solvers.frontal.cholesky import Cholesky
 from nmm.solvers.frontal.dissection import SMALL_PART, dissect
-from nmm.solvers.frontal.metis import metis_order
+from nmm.solvers.frontal.ordering import metis_order
 from nmm.solvers.libraries.optional import METIS
 from nmm.testing.solvers import is_cholesky
 

@@ -14,10 +14,10 @@ from covers.change.inheritance import inherited
 from covers.change.parentage import Parentage
 from covers.change.transfer import Transfer
 from integration.arrays import Floats
-from nmm.assembly.carried.history import carried_history
-from nmm.assembly.carried.rates import CarriedRates
 from nmm.assembly.model import Model
 from nmm.assembly.state import Frames, State
+from nmm.assembly.transfer.history import carried_history
+from nmm.assembly.transfer.rates import CarriedRates
 
 
 def carried(old: Model, new: Model, kin: Parentage, state: State, declared: State) -> State:

@@ -2,7 +2,7 @@
 
 Size of the deviator and mean stress span a plane in which the yield surface is two lines: the cone
 ``q + eta p = k`` and the cap ``p = t``, which is the apex where nothing is cut off before. Stresses
-return to one of them or to the corner (`nmm.materials.returns.planes`).
+return to one of them or to the corner (`nmm.materials.return_mapping.planes`).
 """
 
 from dataclasses import dataclass
@@ -11,15 +11,15 @@ from functools import cached_property
 import numpy as np
 
 from integration.arrays import Bools, Floats
-from nmm.materials.returns.planes import (
+from nmm.materials.return_mapping.planes import (
     BEYOND,
     ActingPlanes,
     ReturnedStress,
     StrengthLoss,
     return_to_planes,
 )
-from nmm.materials.returns.radial_return import DEVIATOR, TWICE, VOLUME
-from nmm.materials.returns.turning_planes import planes_between
+from nmm.materials.return_mapping.radial_return import DEVIATOR, TWICE, VOLUME
+from nmm.materials.return_mapping.turning_planes import planes_between
 
 MEAN = np.array([1.0, 1.0, 0.0, 1.0])
 # Lines that act together: the cone, the cap, their corner.

@@ -1,7 +1,7 @@
 """Return of Mohr-Coulomb plasticity in principal stresses, all points at once.
 
 Planes of the pyramid and of the tension cut-off are linear in principal stresses, sorted from the
-largest tension: stresses return to a plane, an edge or a corner (`nmm.materials.returns.planes`).
+largest tension: stresses return to a plane, an edge or a corner (`planes`).
 """
 
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from typing import Self
 import numpy as np
 
 from integration.arrays import Bools, Floats
-from nmm.materials.returns.planes import (
+from nmm.materials.return_mapping.planes import (
     BEYOND,
     ActingPlanes,
     Normals,
@@ -20,7 +20,7 @@ from nmm.materials.returns.planes import (
     falling,
     return_to_planes,
 )
-from nmm.materials.returns.turning_planes import planes_between
+from nmm.materials.return_mapping.turning_planes import planes_between
 
 # In-plane principal stresses closer than this share of the largest have no direction.
 EQUAL = 1e-12

@@ -4,8 +4,8 @@ import numpy as np
 
 from covers.approximation.manifold import Manifold
 from integration.arrays import Floats
-from nmm.assembly.held_volumes.patches import pressures
-from nmm.assembly.held_volumes.pressures import Pressures
+from nmm.assembly.projected_volumes.patches import pressures
+from nmm.assembly.projected_volumes.pressures import Pressures
 from nmm.errors import FormulationError
 
 # Volume is resisted in every point up to this many shear moduli, by pressures beyond: a Poisson

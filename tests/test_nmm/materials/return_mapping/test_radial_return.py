@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from nmm.materials.returns.radial_return import radial_return
+from nmm.materials.return_mapping.radial_return import radial_return
 
 CONSTANTS = (200e9, 0.3, 250e6, 1e9)
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.materials.returns.planes import ActingPlanes, Normals, Planes, StrengthLoss
+from nmm.materials.return_mapping.planes import ActingPlanes, Normals, Planes, StrengthLoss
 
 # Iterations for the share by Newton's method within a bracket: five are enough where it is even.
 MOST, ENOUGH = 50, 1e-14
@@ -18,7 +18,7 @@ MOST, ENOUGH = 50, 1e-14
 
 @dataclass(frozen=True)
 class TurningPlanes:
-    """Planes that act together and turn; see `nmm.materials.returns.planes.Planes`.
+    """Planes that act together and turn; see `nmm.materials.return_mapping.planes.Planes`.
 
     Attributes
     ----------

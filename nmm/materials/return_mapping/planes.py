@@ -10,7 +10,7 @@ All strengths ``L`` fall with one share ``D`` from 0 to 1, ``L - D dL``, and ``D
 flow ``g`` along planes by ``dL . g h / 2 G``. Beyond what the last strengths take, flow to
 ``D = 1`` in a cell of size ``h`` then takes ``integral of (1 - D) dL . dg = G / h``, along
 whichever planes it goes: a band as wide as a cell takes ``G`` for its area (crack band; Bazant and
-Oh 1983). Planes of friction that falls turn as well: `nmm.materials.returns.turning_planes`.
+Oh 1983). Planes of friction that falls turn as well: `nmm.materials.return_mapping.turning_planes`.
 """
 
 from collections.abc import Callable, Sequence

@@ -10,8 +10,8 @@ from covers.approximation.groups.element_group import ElementGroup
 from covers.approximation.manifold import Manifold
 from integration.arrays import Floats, Ints
 from integration.monomials import count
-from nmm.assembly.held_volumes.patch_inverse import inverse_roots
-from nmm.assembly.held_volumes.pressures import Pressures
+from nmm.assembly.projected_volumes.patch_inverse import inverse_roots
+from nmm.assembly.projected_volumes.pressures import Pressures
 
 # Share of its largest neighbour below which a patch has no constant pressure of its own.
 SLIVER = 0.1

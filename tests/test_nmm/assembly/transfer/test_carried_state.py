@@ -10,10 +10,10 @@ from covers.change.inheritance import inherited
 from covers.change.parentage import Parentage
 from integration.polygons import Polygons
 from integration.rules import PointRule, polygon_rule
-from nmm.assembly.carried.state import carried
 from nmm.assembly.errors import strains
 from nmm.assembly.material_points import material_points
 from nmm.assembly.state import initial_state
+from nmm.assembly.transfer.state import carried
 from nmm.formulation import CoverTable
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
