@@ -21,7 +21,7 @@ from nmm.contact.detection.contacts import Contacts
 from nmm.contact.detection.tolerances import FIRST_REACH
 from nmm.contact.parts import ContactParts
 from nmm.contact.points.contact_points import ContactPoints, concatenate
-from nmm.contact.points.joint_book import follow_joints
+from nmm.contact.points.followed_joints import follow_joints
 from nmm.contact.solution.geometry import ContactGeometry
 from nmm.contact.solution.record import ContactCarried, ContactRecord, ContactSolution
 from nmm.contact.solution.step_bonds import StepBonds

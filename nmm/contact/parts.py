@@ -7,7 +7,7 @@ from nmm.contact.candidates.partners import Partners
 from nmm.contact.enforcement.base import Enforcement
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.mortar.trace_space import TraceSpace
-from nmm.contact.points.bonded_cracks import BondedCracks
+from nmm.contact.points.cracks.bonded_cracks import BondedCracks
 
 
 @dataclass(frozen=True)

@@ -54,7 +54,7 @@ class Contact(ModelContact, Effect):
 
     def applied_forces(self, state: State) -> AppliedForces:
         """See `Effect.applied_forces`: those on crack faces in the accepted state."""
-        from nmm.contact.points.on_faces import on_faces
+        from nmm.contact.points.cracks.on_faces import on_faces
 
         return on_faces(self.model, self.standing)
 

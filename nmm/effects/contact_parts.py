@@ -15,7 +15,7 @@ from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.mortar.segments import face_points
 from nmm.contact.mortar.trace_space import TraceSpace
 from nmm.contact.parts import ContactParts
-from nmm.contact.points.bonded_cracks import BondedCracks
+from nmm.contact.points.cracks.bonded_cracks import BondedCracks
 from nmm.effects.base import Setup
 from nmm.errors import Fault, FormulationError, SceneError
 from nmm.formulation import ContactMethod

@@ -17,8 +17,8 @@ from nmm.contact.detection.tolerances import DEPTH, FLUSH, SKIN
 from nmm.contact.mortar.segments import faced
 from nmm.contact.points.boundary_points import sides
 from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.cracks.welded import WeldedVertices
 from nmm.contact.points.joint_book import JointBook
-from nmm.contact.points.welded import WeldedVertices
 from nmm.errors import SceneError, SolveError
 
 

@@ -9,7 +9,6 @@ from covers.change.parentage import Parentage
 from nmm.assembly.state import State
 from nmm.contact.candidates.candidates import Candidates
 from nmm.contact.laws.contact_laws import Springs
-from nmm.contact.points.bonded_cracks import BondedCracks
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.continued.inheritance import (
     continued,
@@ -19,6 +18,7 @@ from nmm.contact.points.continued.inheritance import (
     placed,
     within_one,
 )
+from nmm.contact.points.cracks.bonded_cracks import BondedCracks
 from nmm.contact.solution.record import ContactRecord
 
 # How far open contacts are that a change of the model continues, in sizes of the domain.

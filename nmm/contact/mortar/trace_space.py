@@ -18,7 +18,7 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.material_points import material_points
 from nmm.contact.detection.tolerances import ALIKE_COSINE, ALIKE_FINE, KINK
 from nmm.contact.points.boundary_points import Sides
-from nmm.contact.points.welded import WeldedVertices
+from nmm.contact.points.cracks.welded import WeldedVertices
 
 # Places on an edge that may be nodes: fields that are smooth are most unlike between corners.
 ALONG_EDGES = (0.0, 1 / 3, 2 / 3)

@@ -1,28 +1,19 @@
-"""Joints that are followed from the start: their contact points keep their place."""
+"""Joints that are followed: their contact points keep their place until they come apart."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Protocol
 
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from integration.contraction import contract
-from nmm.assembly.model import Model
 from nmm.contact.detection.contacts import Contacts
-from nmm.contact.detection.joints import Joints, find_joints, joint_ends, joint_points
-from nmm.contact.detection.surface import Surface, pair_key, unordered_key
+from nmm.contact.detection.surface import Surface, unordered_key
 from nmm.contact.detection.tolerances import JOINT_LEFT, WHOLLY_HELD
 from nmm.contact.points.between_faces import JointFaces
-from nmm.contact.points.bonded_cracks import BondedCracks, refuse_unbonded
 from nmm.contact.points.boundary_points import tangents
 from nmm.contact.points.contact_points import ContactPoints, concatenate
-from nmm.contact.problem.step_problem import BONDED, BROKEN, OPEN
-from nmm.interfaces.history import History
-
-# What contact points have of those of joints.
-OF_JOINTS = ("edge_a", "parameter_a", "edge_b", "parameter_b", "normal", "gap", "length")
+from nmm.contact.problem.step_problem import BROKEN
 
 
 @dataclass(frozen=True)
@@ -137,110 +128,11 @@ class JointBook:
         return int((~self.points.bonded).sum()) + len(self.lost)
 
 
-class JointLaws(Protocol):
-    """What joints ask of the laws of a scene's n interfaces."""
-
-    @property
-    def makes_joints(self) -> Bools:
-        """(n,) whether shared edges are followed as joints."""
-
-    @property
-    def bonded(self) -> Bools:
-        """(n,) whether they hold together at the start."""
-
-    def initial(self, interface: Ints, bonded: Bools) -> History:
-        """Return what the laws of points (m,) remember at first, of bonds that hold or not."""
-
-
-def follow_joints(
-    surface: Surface,
-    model: Model,
-    interface_of: Callable[[Ints, Ints], Ints],
-    laws: JointLaws,
-    joint_rule: tuple[str, int],
-    cracks: BondedCracks,
-) -> JointBook:
-    """Follow the stretches of edges that two bodies share, or two faces of a bonded crack.
-
-    Parameters
-    ----------
-    surface, model
-        Where the edges are at the start, and the materials behind them.
-    interface_of
-        From two edges to the index of their interface, negative without.
-    laws
-        Of the interfaces.
-    joint_rule
-        "corners" or "gauss", where joints act along their edge, and at how many Gauss points.
-    cracks
-        Those within bodies whose faces hold together.
-    """
-    joints, interface = _followed(surface, interface_of, laws, cracks)
-    distance = _distance(model, joints)
-    points = joint_points(surface, joints, *joint_rule)
-    vertex, edge, joint = joint_ends(surface, joints)
-    held = laws.bonded[interface[points.joint]]
-    found = ContactPoints.unloaded(
-        **{name: getattr(points, name) for name in OF_JOINTS},
-        spring_factor=points.length / distance[points.joint],
-        interface=interface[points.joint],
-        key=-1 - np.arange(len(points)),
-        state=np.where(held, int(BONDED), int(OPEN)),
-        history=laws.initial(interface[points.joint], held),
-    )
-    pairs = pair_key(surface, vertex, edge)
-    none = found.take(np.zeros(0, dtype=np.int64))
-    return JointBook(found, points.joint, pairs, joint, lost=none, left=none)
-
-
-def _followed(
-    surface: Surface,
-    interface_of: Callable[[Ints, Ints], Ints],
-    laws: JointLaws,
-    cracks: BondedCracks,
-) -> tuple[Joints, Ints]:
-    """Return the stretches that are followed, and the interface (j,) of each."""
-    joints = find_joints(surface, within_bodies=bool(cracks))
-    middle = (joints.start + joints.end) / 2
-    seam, apart = cracks.hold(middle), surface.body[joints.edge_a] != surface.body[joints.edge_b]
-    kept = seam | (apart & ~cracks.part(middle))
-    joints, seam = joints.take(kept), seam[kept]
-    interface = interface_of(joints.edge_a, joints.edge_b)
-    firm = (interface >= 0) & laws.bonded[np.maximum(interface, 0)]
-    refuse_unbonded(joints.start[seam & ~firm])
-    wanted = (interface >= 0) & laws.makes_joints[np.maximum(interface, 0)]
-    return joints.take(wanted), interface[wanted]
-
-
 def given_up(points: ContactPoints) -> ContactPoints:
     """Return points of joints that came apart, which carry nothing from now on."""
     zero = np.zeros(len(points))
     broken = np.full(len(points), int(BROKEN))
     return replace(points, state=broken, normal_force=zero, shear_force=zero)
-
-
-def _distance(model: Model, joints: Joints) -> Floats:
-    """Return lengths (j,) of the stiffest material as soft as what lies across joints (m).
-
-    ``h = E_max (h_a / E_a + h_b / E_b)`` with the distances of both elements' middles from the
-    joint; where moduli are equal to the largest, the distance of the middles.
-    """
-    manifold, modulus = model.manifold, model.modulus
-    middle = manifold.elements.centroids
-    a, b = (manifold.boundary.element[edge] for edge in (joints.edge_a, joints.edge_b))
-    far_a, far_b, apart = (
-        np.abs(contract("ij,ij->i", offset, joints.normal))
-        for offset in (middle[a] - joints.start, middle[b] - joints.start, middle[a] - middle[b])
-    )
-    # About a tip both faces are of one element, which has no middle on either side.
-    far_a, far_b, apart = (
-        np.where(a == b, share * joints.length, far)
-        for far, share in ((far_a, 0.5), (far_b, 0.5), (apart, 1.0))
-    )
-    softness = modulus.max() / modulus
-    share = far_a / (far_a + far_b)
-    mixed = share * softness[a] + (1 - share) * softness[b]
-    return np.asarray(apart * np.where(softness[a] == softness[b], softness[a], mixed))
 
 
 def _turned(points: ContactPoints, faces: JointFaces) -> ContactPoints:
