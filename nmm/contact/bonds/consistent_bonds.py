@@ -16,7 +16,7 @@ from scipy.sparse import csr_array
 from covers.approximation.rows import row_matrix
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
-from nmm.assembly.state import Frames
+from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.assembly.tractions.average import AverageTraction
 from nmm.assembly.tractions.donors import Flux, added_traction, in_global_axes
@@ -115,26 +115,27 @@ class ConsistentBonds:
         """Return the row of joint points, -1 of those without."""
         return self.number[-1 - joints.key]
 
-    def force_rows(self, contacts: ContactPoints, frames: Frames) -> tuple[csr_array, csr_array]:
-        """Rows (k, n) of the average pull and shear at joint points (N), as gaps and slips go."""
+    def averages(
+        self, contacts: ContactPoints, state: State, stresses: Sequence[StressAt], time: float
+    ) -> tuple[tuple[Floats, csr_array], tuple[Floats, csr_array]]:
+        """Average pull and shear at joint points, as gaps and slips go: (k,) in N, and rows (k, n).
+
+        ``stresses`` are added by effects to those of the strain, as they are at a ``time`` (s).
+        """
         row = self.row(contacts)
-        unknowns, values = in_global_axes(self.fluxes, frames, row)
+        unknowns, values = in_global_axes(self.fluxes, state.frames, row)
         values = values * self.area[row, None, None]
-        pull, shear = (
-            row_matrix(unknowns, -np.einsum("kc,kcl->kl", axis, values), self.n_unknowns, True)
+        added = -added_traction(self.fluxes, state.frames, stresses, time, row)
+        added = added * self.area[row, None]
+        normal, shear = (
+            (
+                row_matrix(unknowns, -np.einsum("kc,kcl->kl", axis, values), self.n_unknowns, True),
+                np.einsum("kc,kc->k", axis, added),
+            )
             for axis in (contacts.normal, tangents(contacts.normal))
         )
-        return pull, shear
-
-    def added(
-        self, contacts: ContactPoints, frames: Frames, stresses: Sequence[StressAt], time: float
-    ) -> tuple[Floats, Floats]:
-        """Return pull and shear (k,) in N of stresses that effects add to those of the strain."""
-        row = self.row(contacts)
-        total = -added_traction(self.fluxes, frames, stresses, time, row) * self.area[row, None]
-        axes = contacts.normal, tangents(contacts.normal)
-        normal, shear = (np.einsum("kc,kc->k", axis, total) for axis in axes)
-        return normal, shear
+        pull, drag = (rows @ state.deformation + more for rows, more in (normal, shear))
+        return (pull, normal[0]), (drag, shear[0])
 
 
 def consistent(model: Model, asked: str) -> bool:

@@ -109,18 +109,12 @@ class TiedBonds(Transform):
         """
         index = np.flatnonzero(contacts.tied)
         tied = contacts.take(index)
-        more = bonds.added(tied, state.frames, stresses, state.time if time is None else time)
-        at = bonds.row(tied)
+        averages = bonds.averages(tied, state, stresses, state.time if time is None else time)
+        at, jumps, gaps = bonds.row(tied), (tied.gap, tied.slip), (rows.normal, rows.tangent)
         penalty = counting(tied, bonds.area[at] * bonds.penalty[at])
         normal, tangent = (
-            Direction(gap, force @ state.deformation + known, gaps[index], force, penalty)
-            for gap, force, known, gaps in zip(
-                (tied.gap, tied.slip),
-                bonds.force_rows(tied, state.frames),
-                more,
-                (rows.normal, rows.tangent),
-                strict=True,
-            )
+            Direction(jump, pull, gap[index], pulls, penalty)
+            for jump, (pull, pulls), gap in zip(jumps, averages, gaps, strict=True)
         )
         return cls(index, normal, tangent, weight)
 

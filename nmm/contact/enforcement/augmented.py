@@ -12,7 +12,7 @@ from nmm.contact.iteration.multiplier_rounds import (
     first_round,
     stiff_springs,
 )
-from nmm.contact.iteration.options import IterationBudget
+from nmm.contact.iteration.options.budgets import IterationBudget
 from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.step_problem import StepProblem
 from nmm.registry import above_zero

@@ -12,7 +12,7 @@ from nmm.contact.iteration.answers import singular_answer, unsettled
 from nmm.contact.iteration.cut_spring_solver import solve_springs
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.multiplier_rounds import compliances, stiff_springs
-from nmm.contact.iteration.options import IterationBudget
+from nmm.contact.iteration.options.budgets import IterationBudget
 from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.coulomb import label
 from nmm.contact.problem.cut_springs import IterationResult

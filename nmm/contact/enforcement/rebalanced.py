@@ -5,7 +5,7 @@ from dataclasses import replace
 from integration.arrays import Ints
 from nmm.contact.enforcement.base import Enforcement
 from nmm.contact.iteration.memory import Memory
-from nmm.contact.iteration.options import SMALL
+from nmm.contact.iteration.options.budgets import SMALL
 from nmm.contact.problem.residual_kernel import unevenness
 from nmm.contact.problem.row_products import compressed
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem

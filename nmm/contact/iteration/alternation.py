@@ -15,7 +15,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.contact.iteration.memory import KeptFactor
 from nmm.contact.iteration.newton.modified_newton import ModifiedNewton
-from nmm.contact.iteration.options import IterationBudget, Patience
+from nmm.contact.iteration.options.budgets import IterationBudget, Patience
 from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.errors import SolveError

@@ -14,7 +14,7 @@ import numpy as np
 from integration.arrays import Bools, Floats
 from nmm.contact.islands.part import part_of
 from nmm.contact.islands.partition import Islands
-from nmm.contact.iteration.options import SMALL
+from nmm.contact.iteration.options.budgets import SMALL
 from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 

@@ -17,7 +17,7 @@ from nmm.contact.iteration.apart import apart_in, solve_apart
 from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
 from nmm.contact.iteration.interior_point import Goal, InteriorPoint
 from nmm.contact.iteration.newton.semismooth_newton import polish
-from nmm.contact.iteration.options import SMALL, IterationBudget
+from nmm.contact.iteration.options.budgets import SMALL, IterationBudget
 from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 

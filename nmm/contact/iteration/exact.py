@@ -21,7 +21,7 @@ from nmm.contact.iteration.multiplier_rounds import (
     multiplier_round,
     stiff_springs,
 )
-from nmm.contact.iteration.options import SMALL, IterationBudget
+from nmm.contact.iteration.options.budgets import SMALL, IterationBudget
 from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.step_problem import StepProblem
 

@@ -8,7 +8,7 @@ import numpy as np
 from integration.arrays import Floats, Ints, same
 from integration.contraction import every
 from nmm.contact.islands.partition import Islands
-from nmm.contact.iteration.options import MemoryOptions
+from nmm.contact.iteration.options.springs import MemoryOptions
 from nmm.contact.iteration.ways import Ways
 from nmm.contact.problem.balance import length
 from nmm.contact.problem.cut_springs import CutSprings

@@ -8,7 +8,8 @@ timed: runs repeat to the last digit.
 
 from dataclasses import dataclass, replace
 
-from nmm.contact.iteration.options import IterationBudget, WayOptions
+from nmm.contact.iteration.options.budgets import IterationBudget
+from nmm.contact.iteration.options.springs import WayOptions
 
 
 @dataclass

@@ -113,13 +113,10 @@ class MixedBonds:
         if not len(index):
             return None
         some = contacts.take(index)
-        springs = laws.springs(contacts)
-        added = bonds.added(some, state.frames, stresses, state.time if time is None else time)
+        averages = bonds.averages(some, state, stresses, state.time if time is None else time)
         normal, tangent = (
-            AverageStress(1 / spring[index], rows @ state.deformation + more, rows)
-            for spring, rows, more in zip(
-                springs[:2], bonds.force_rows(some, state.frames), added, strict=True
-            )
+            AverageStress(1 / spring[index], *average)
+            for spring, average in zip(laws.springs(contacts)[:2], averages, strict=True)
         )
         return cls(index, normal, tangent)
 

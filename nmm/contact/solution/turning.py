@@ -101,13 +101,7 @@ def owed(
     gain
         (3 B,) velocity by force (s / kg).
     """
-    start, following, body = edges
-    edge_a, edge_b, parameter_a, parameter_b, key = contacts
-    end = start[following]
-    # Between two faces, in joints and inside stretches, neither side is the first.
-    shares = np.where((key < 0) | (parameter_a > 0), 0.5, 0.0)
-    pairs, parameters = (edge_a, edge_b), (parameter_a, parameter_b)
-    acting = moments(start, end, body, centre, pairs, parameters, shares, *through)
+    acting = moments(edges, centre, contacts, through)
     left, acted = mean(modes, rest - push), mean(modes, push)
     for b in range(len(acting)):
         left[3 * b + 2] += acted[3 * b + 2] - acting[b]
@@ -117,34 +111,32 @@ def owed(
 
 @compiled
 def moments(
-    start: Floats,
-    end: Floats,
-    body: Ints,
+    edges: tuple[Floats, Ints, Ints],
     centre: Floats,
-    edges: tuple[Ints, Ints],
-    parameters: tuple[Floats, Floats],
-    share: Floats,
-    direction: Floats,
-    normal: Floats,
-    shear: Floats,
+    contacts: tuple[Ints, Ints, Floats, Floats, Ints],
+    through: tuple[Floats, Floats, Floats],
 ) -> Floats:
-    """Moments (B,) about ``centre`` (B, 2) of the contact forces.
+    """Moments (B,) about ``centre`` (B, 2) of the contact forces; see `owed`.
 
-    Each acts by ``share`` (m,) of the way from its point on side a to that on side b. ``start``,
-    ``end`` (n, 2) and ``body`` (n,) are of the edges, ``direction`` (m, 2) from b to a.
+    Between two faces, in joints and inside stretches, neither side is the first: forces act half
+    way from side a to side b; elsewhere on side a.
     """
+    start, following, body = edges
+    edge_a, edge_b, parameter_a, parameter_b, key = contacts
+    direction, normal, shear = through
     found = np.zeros(len(centre))
     for c in range(len(normal)):
+        share = 0.5 if key[c] < 0 or parameter_a[c] > 0 else 0.0
         x = y = 0.0
         for side in range(2):
-            at, s = edges[side][c], parameters[side][c]
-            part = share[c] if side else 1.0 - share[c]
-            x += part * (start[at, 0] + s * (end[at, 0] - start[at, 0]))
-            y += part * (start[at, 1] + s * (end[at, 1] - start[at, 1]))
+            at, s = (edge_a[c], parameter_a[c]) if side == 0 else (edge_b[c], parameter_b[c])
+            part, end = share if side else 1.0 - share, following[at]
+            x += part * (start[at, 0] + s * (start[end, 0] - start[at, 0]))
+            y += part * (start[at, 1] + s * (start[end, 1] - start[at, 1]))
         # The tangent is the normal turned clockwise.
         fx = normal[c] * direction[c, 0] + shear[c] * direction[c, 1]
         fy = normal[c] * direction[c, 1] - shear[c] * direction[c, 0]
-        one, other = body[edges[0][c]], body[edges[1][c]]
+        one, other = body[edge_a[c]], body[edge_b[c]]
         found[one] += (x - centre[one, 0]) * fy - (y - centre[one, 1]) * fx
         found[other] -= (x - centre[other, 0]) * fy - (y - centre[other, 1]) * fx
     return found

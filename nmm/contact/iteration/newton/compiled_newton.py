@@ -8,7 +8,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.compiled import compiled
-from nmm.contact.iteration.options import Patience
+from nmm.contact.iteration.options.budgets import Patience
 from nmm.contact.problem.residual_kernel import SpringColumns, residual
 from nmm.solvers.anderson import add_step, mixed_step
 from nmm.solvers.frontal.frontal_factor import FrontalFactor

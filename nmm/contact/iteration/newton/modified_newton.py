@@ -11,7 +11,9 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.contact.iteration.newton import compiled_newton
-from nmm.contact.iteration.options import DEFAULT, AlternationOptions, Patience
+from nmm.contact.iteration.options import DEFAULT
+from nmm.contact.iteration.options.budgets import Patience
+from nmm.contact.iteration.options.springs import AlternationOptions
 from nmm.contact.problem.cut_springs import CutSprings, Residual
 from nmm.solvers.anderson import Anderson
 from nmm.solvers.linear import Factor

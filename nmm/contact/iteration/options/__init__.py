@@ -8,7 +8,6 @@ blocks.
 from dataclasses import dataclass, field
 
 from nmm.contact.iteration.options.barrier import BarrierOptions
-from nmm.contact.iteration.options.budgets import SMALL, IterationBudget, Patience
 from nmm.contact.iteration.options.exact import InteriorOptions, RoundOptions
 from nmm.contact.iteration.options.springs import (
     AlternationOptions,
@@ -17,22 +16,6 @@ from nmm.contact.iteration.options.springs import (
     SpringOptions,
     WayOptions,
 )
-
-__all__ = [
-    "DEFAULT",
-    "SMALL",
-    "AlternationOptions",
-    "BarrierOptions",
-    "InteriorOptions",
-    "IslandOptions",
-    "IterationBudget",
-    "IterationOptions",
-    "MemoryOptions",
-    "Patience",
-    "RoundOptions",
-    "SpringOptions",
-    "WayOptions",
-]
 
 
 @dataclass(frozen=True)

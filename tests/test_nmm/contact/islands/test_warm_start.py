@@ -9,7 +9,7 @@ from nmm.contact.islands.warm_start import start_from
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.newton.compiled_newton import lost as forecast
 from nmm.contact.iteration.newton.compiled_newton import terms
-from nmm.contact.iteration.options import Patience
+from nmm.contact.iteration.options.budgets import Patience
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.testing.contact_oracle import random_problem
 

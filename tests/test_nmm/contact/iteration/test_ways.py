@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from nmm.contact.iteration.options import IterationBudget, WayOptions
+from nmm.contact.iteration.options.budgets import IterationBudget
+from nmm.contact.iteration.options.springs import WayOptions
 from nmm.contact.iteration.ways import Ways
 from nmm.contact.problem.cut_springs import IterationResult
 

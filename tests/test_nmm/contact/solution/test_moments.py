@@ -18,20 +18,13 @@ def test_forces_on_unknowns_are_products_with_the_transposed_rows() -> None:
 
 def test_a_force_at_a_third_of_an_edge_turns_both_bodies_about_their_centres() -> None:
     # At (1, 0) on the edge from (0, 0) to (3, 0): 2 N up and, with the tangent (1, 0), 5 N right.
-    start, end = np.array([[0.0, 0], [0, 0]]), np.array([[3.0, 0], [3, 0]])
-    centre = np.array([[0.0, 1], [-1.0, -4]])
-    edges, one = (np.array([0]), np.array([1])), np.ones(1)
+    start, following = np.array([[0.0, 0], [0, 0], [3, 0]]), np.array([2, 2, 0])
+    centre, one = np.array([[0.0, 1], [-1.0, -4]]), np.ones(1)
     found = moments(
-        start,
-        end,
-        np.array([0, 1]),
+        (start, following, np.array([0, 1, 0])),
         centre,
-        edges,
-        (one / 3, one),
-        np.zeros(1),
-        np.array([[0.0, 1]]),
-        2 * one,
-        5 * one,
+        (np.array([0]), np.array([1]), one / 3, one / 3, np.array([0])),
+        (np.array([[0.0, 1]]), 2 * one, 5 * one),
     )
     # Arms (1, -1) and (2, 4): moments 1 * 2 + 1 * 5, and 2 * 2 - 4 * 5 with the sign changed.
     np.testing.assert_allclose(found, [7, 16], rtol=1e-14)

@@ -6,7 +6,7 @@ import pytest
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.newton.compiled_newton import serves
 from nmm.contact.iteration.newton.modified_newton import ModifiedNewton
-from nmm.contact.iteration.options import Patience
+from nmm.contact.iteration.options.budgets import Patience
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.solvers.linear import make_solver
 from nmm.testing.contact_oracle import random_problem

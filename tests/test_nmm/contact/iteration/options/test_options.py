@@ -76,7 +76,8 @@ def test_a_formulation_says_how_much_is_kept_from_step_to_step() -> None:
 
 
 def test_patience_grows_with_the_price_of_a_factorisation():
-    from nmm.contact.iteration.options import AlternationOptions, Patience
+    from nmm.contact.iteration.options.budgets import Patience
+    from nmm.contact.iteration.options.springs import AlternationOptions
 
     options = AlternationOptions(usual=600.0)
     # by hand: the root of four and of a hundred times as many unknowns, never below one
