@@ -1,6 +1,6 @@
 """Steps in time: a step that does not converge is cut; one that cannot be cut ends the run."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 from nmm.assembly.state import State
 from nmm.effects.base import Instant
@@ -9,6 +9,7 @@ from nmm.frozen import with_parts
 from nmm.progress import Progress
 from nmm.stepping.drive.changes import AcceptedState, asked, with_events
 from nmm.stepping.drive.in_time import ROUNDED_TIME, InTime, Schedule
+from nmm.stepping.drive.jumps import jumped
 from nmm.stepping.drive.stable_step import longest_step, singular_mass
 from nmm.stepping.drive.until_verdict import broken_off
 from nmm.stepping.drive.verdict import CONVERGED, FAILED, SPENT, RunVerdict
@@ -32,8 +33,11 @@ def run_in_time(
     schedule: Schedule,
     progress: Progress,
     keep: Callable[[InTime], InTime] = lambda at: at,
+    names: Sequence[str] = (),
 ) -> tuple[State, RunVerdict]:
     """Step on over the schedule's duration; ``keep`` is shown where every step but the last ends.
+
+    ``names`` (N,) are those of the regions.
 
     Returns
     -------
@@ -43,7 +47,7 @@ def run_in_time(
     if schedule.control is not None:
         recorder.choosing()
     while verdict is None and at.rest(schedule):
-        found = _next(stepper, recorder, at, schedule, progress)
+        found = _next(stepper, recorder, at, schedule, progress, names)
         if isinstance(found, RunVerdict):
             verdict = found
         else:
@@ -77,19 +81,25 @@ def _next(
     at: InTime,
     schedule: Schedule,
     progress: Progress,
+    names: Sequence[str],
 ) -> InTime | RunVerdict:
     """Return where the next step ends, or why there is none."""
     take = _fixed if schedule.control is None else _by_error
     try:
         before, attempt, to, why = take(recorder, at, schedule)
+        jump = None if attempt.converged else jumped(recorder, at, schedule, names)
     except BudgetSpentError as spent:
         return RunVerdict(SPENT, f"stopped at {at.state.time:.6g} s: {spent}")
     except NmmError as fault:
         return broken_off(recorder, f"{at.state.time:.6g} s", fault)
-    if not attempt.converged:
+    if isinstance(jump, str):
         remedy = "" if stepper.plan.inertia is not None else WITHOUT_INERTIA
-        return RunVerdict(FAILED, _failure(attempt, at.state, schedule) + remedy)
-    after, contacts = stepper.accept(attempt)
+        return RunVerdict(FAILED, _failure(attempt, at.state, schedule) + jump + remedy)
+    if jump is None:
+        after, contacts = stepper.accept(attempt)
+    else:
+        before, attempt, why, contacts = jump.at, jump.found.attempt, jump.said, jump.found.contacts
+        after, to = attempt.state, with_parts(at, step=schedule.step)
     stands = AcceptedState(after, contacts)
     events = asked(recorder, stands) if schedule.events else ()
     said = recorder.step(before, attempt, contacts, after)

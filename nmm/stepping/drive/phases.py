@@ -68,7 +68,7 @@ class Phases:
         """Let time pass."""
         moving = at or self.keeps.begin(InTime.at_start(state, times))
         assert isinstance(moving, InTime)
-        ahead = moving, times, self.progress, self.keeps.keep
+        ahead = moving, times, self.progress, self.keeps.keep, self.names
         return run_in_time(self.stepper, self.recorder, *ahead)
 
     def in_balance(
