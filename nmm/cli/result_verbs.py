@@ -26,7 +26,11 @@ def plot(
         float | None, typer.Option(min=0, help="Factor on displacements.")
     ] = None,
     component: Annotated[
-        str, typer.Option(help="Stress drawn: mises, xx, yy, xy, major, minor.")
+        str,
+        typer.Option(
+            help="What is drawn: mises, xx, yy, xy, major or minor stress; or a quantity of the "
+            "frames, such as heat:temperature."
+        ),
     ] = "mises",
     allow_code: AllowCode = None,
 ) -> None:

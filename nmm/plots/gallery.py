@@ -16,7 +16,7 @@ from nmm.plots.results.crack_paths import crack_paths, grown_paths
 from nmm.plots.results.curves import load_displacement, overview
 from nmm.plots.results.deformed import deformed, failure_mode
 from nmm.plots.results.members import members
-from nmm.plots.results.stress import stress
+from nmm.plots.results.stress import NAMES, stress
 from nmm.quantity import APART
 from nmm.results.frame import Frame, Topology
 from nmm.results.sink import RunData
@@ -51,7 +51,7 @@ def draw_all(
     magnification
         Factor on displacements; None takes a round one that makes them visible.
     component
-        Measure of stress, see `stress`.
+        Measure of stress, or a quantity of the frame, see `stress`.
     tell
         Called with a sentence for each picture that a damaged run folder does not let us draw; the
         others are drawn. Without it the first such fault is raised.
@@ -65,8 +65,9 @@ def draw_all(
         else:
             name = "failure_mode.png" if shown.frames[-1].stage == "failure" else "deformed.png"
             album.draw(name, failure_mode, shown, scene=scene, magnification=magnification)
-        album.draw(f"stress_{component}.png", stress, shown, component, frame=calm)
-        _of_frame(album, shown, calm)
+        own = f"stress_{component}.png" if component in NAMES else _file(component)
+        album.draw(own, stress, shown, component, frame=calm)
+        _of_frame(album, shown, calm, component)
         if _has_covers(run, scene):
             album.draw("covers.png", _covers, run, scene)
     if _steps(run) > 1:  # one step is no curve
@@ -96,14 +97,18 @@ class _Album:
             self.drawn.extend([self.folder / name] if made is not False else [])
 
 
-def _of_frame(album: _Album, shown: RunData, number: int) -> None:
-    """Draw what a frame has besides stress: quantities of effects, cracks, forces."""
+def _file(quantity: str) -> str:
+    """Name of the picture of a quantity."""
+    return f"{quantity.replace(':', '_').replace(' ', '_')}.png"
+
+
+def _of_frame(album: _Album, shown: RunData, number: int, drawn: str) -> None:
+    """Draw what a frame has besides ``drawn``: quantities of effects, cracks, forces."""
     frame = shown.frames[number]
     for name, quantity in frame.fields.items():  # a handful, of effects
         apart = quantity.on in ("contacts", *APART)
-        if ":" in name and not apart and quantity.values.ndim == 1:
-            file = name.replace(":", "_").replace(" ", "_")
-            album.draw(f"{file}.png", stress, shown, name, frame=number)
+        if ":" in name and not apart and quantity.values.ndim == 1 and name != drawn:
+            album.draw(_file(name), stress, shown, name, frame=number)
     if grown_paths(shown):
         album.draw("crack_paths.png", crack_paths, shown)
     if len(frame.contact_gap):

@@ -38,13 +38,7 @@ point = [0.5, 1]
 block = "lower"
 """
 # The load of `notched_plate`: 1 Pa along its upper edge.
-PULLED = """
-[[loads]]
-name = "up"
-kind = "edge"
-segment = [[0, 0.5], [1, 0.5]]
-traction = [0, 1.0]
-"""
+PULLED = "\n" + text.pulled_edge("up", [[0, 0.5], [1, 0.5]], [0, 1.0])
 
 # What pulls a body of 2 m by 2 m apart, above and below the level of the origin, by 1 MPa.
 PULLED_APART = """
@@ -79,7 +73,7 @@ def notched_plate(fracture: str, pulled: str = PULLED, tip: float = 0.3) -> str:
             text.material("m", 1.0, 0.3, None),
             text.box("plate", (0, -0.5), (1, 1), "m"),
             f'[[cracks]]\nname = "notch"\npoints = [[-0.1, 0.0], [{tip}, 0.0]]\n',
-            edge_support("floor", (0, -0.5), (1, -0.5)),
+            text.held_edge("floor", ((0, -0.5), (1, -0.5))),
             pulled,
             f"[fracture]\n{fracture}\n",
         ],
@@ -127,9 +121,8 @@ def pulled_bar(
             *materials,
             interface,
             *(text.block(name, made, text.rectangle((a, 0), (b, 1))) for (name, made), a, b in row),
-            edge_support("left", (0, 0), (0, 1)),
-            f'[[loads]]\nname = "pull"\nkind = "edge"\nsegment = [[{n}, 0], [{n}, 1]]\n'
-            f"traction = [{stress}, 0]\n",
+            text.held_edge("left", ((0, 0), (0, 1))),
+            text.pulled_edge("pull", [[n, 0], [n, 1]], [stress, 0]),
             text.monitor("end", (n, 0.5), blocks[-1][0]),
         ],
     )
@@ -154,27 +147,16 @@ def block_on_slab(poisson: float, supports: Sequence[str], inertia: str = "") ->
     )
 
 
-def edge_support(
-    name: str, start: text.Corner, end: text.Corner, fix: Sequence[str] = ("x", "y")
-) -> str:
-    """Return the table of a support of a straight edge."""
-    return (
-        f'[[supports]]\nname = "{name}"\nsegment = {[list(start), list(end)]}\nfix = {list(fix)}\n'
-    )
-
-
 def roller_and_pin(height: float = 1.0) -> str:
     """Return tables that hold the left end of a bar from the origin: along it, and its corner."""
-    return edge_support("left", (0, 0), (0, height), ("x",)) + (
-        '[[supports]]\nname = "pin"\npoint = [0, 0]\nfix = ["y"]\n'
+    return text.held_edge("left", ((0, 0), (0, height)), "x") + (
+        text.held_point("pin", [0, 0], "y")
     )
 
 
 def floor_and_pin(width: float = 1.0) -> str:
     """Return tables that hold what stands on the x axis: its foot upright, its corner along it."""
-    return edge_support("base", (0, 0), (width, 0), ("y",)) + (
-        '[[supports]]\nname = "pin"\npoint = [0, 0]\nfix = ["x"]\n'
-    )
+    return text.held_edge("base", ((0, 0), (width, 0)), "y") + (text.held_point("pin", [0, 0], "x"))
 
 
 def salt_block(law: str, constants: str, loads: Mapping[str, float], head: str = "") -> str:
@@ -197,8 +179,7 @@ def salt_block(law: str, constants: str, loads: Mapping[str, float], head: str =
             text.box("block", (0, 0), (1, 1), "salt"),
             floor_and_pin(),
             *(
-                f'[[loads]]\nname = "{name}"\nkind = "edge"\nsegment = [[0, 1], [1, 1]]\n'
-                f'traction = [0, "{pull} MPa"]\n'
+                text.pulled_edge(name, [[0, 1], [1, 1]], [0, 1e6 * pull])
                 for name, pull in loads.items()
             ),
             text.monitor("top", (0.5, 1), "block"),
@@ -220,11 +201,10 @@ def biaxial_test(dilation: float, more: str = "") -> str:
             'poisson_ratio = 0.25\ncohesion = "20 kPa"\nfriction_angle = "30 deg"\n'
             f'dilation_angle = "{dilation} deg"\n',
             text.box("soil", (0, 0), (1, 1), "soil"),
-            edge_support("left", (0, 0), (0, 1), ("x",)),
-            edge_support("base", (0, 0), (1, 0), ("y",)),
-            edge_support("plate", (0, 1), (1, 1), ("y",)) + "displacement = [0, -0.02]\n",
-            '[[loads]]\nname = "side"\nkind = "edge"\nsegment = [[1, 0], [1, 1]]\n'
-            'traction = ["-100 kPa", 0]\n',
+            text.held_edge("left", ((0, 0), (0, 1)), "x"),
+            text.held_edge("base", ((0, 0), (1, 0)), "y"),
+            text.held_edge("plate", ((0, 1), (1, 1)), "y") + "displacement = [0, -0.02]\n",
+            text.pulled_edge("side", [[1, 0], [1, 1]], [-100e3, 0]),
             text.monitor("side", (1, 0.5), "soil"),
             text.monitor("top", (0.5, 1), "soil"),
             '[loading]\nscaled = ["plate"]\n',
@@ -253,7 +233,7 @@ def column_on_ground(gravity: bool = True, reactions: bool = True, incoming: boo
             "[inertia]\n",
             "[records.wave]\nvalues = [0, 0.1, 0.3, 0.1, 0, 0, 0, 0, 0]\nstep = 0.01\n"
             'quantity = "velocity"\n',
-            edge_support("bottom", (0, 0), (2, 0)),
+            text.held_edge("bottom", ((0, 0), (2, 0))),
             '[[viscous_boundaries]]\nname = "base"\nsegment = [[0, 0], [2, 0]]\n'
             f"reactions = {str(reactions).lower()}\n{wave}",
         ],

@@ -1,6 +1,7 @@
 """Pieces of scene files that benchmarks share."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -55,6 +56,31 @@ def interface(
 def held(name: str) -> str:
     """Table of a support that holds a whole block."""
     return f'[[supports]]\nname = "hold {name}"\nblock = "{name}"\nfix = ["x", "y"]\n'
+
+
+def held_edge(name: str, segment: Sequence[Sequence[float]] | Floats, axes: str = "xy") -> str:
+    """Table of a support of a straight edge, along some axes."""
+    return f'[[supports]]\nname = "{name}"\nsegment = {_places(segment)}\nfix = {list(axes)}\n'
+
+
+def held_point(name: str, point: Sequence[float] | Floats, axes: str = "xy") -> str:
+    """Table of a support of a point, along some axes."""
+    return f'[[supports]]\nname = "{name}"\npoint = {_places(point)}\nfix = {list(axes)}\n'
+
+
+def pulled_edge(
+    name: str, segment: Sequence[Sequence[float]] | Floats, traction: Sequence[float] | Floats
+) -> str:
+    """Table of a traction (Pa) on a straight edge."""
+    return (
+        f'[[loads]]\nname = "{name}"\nkind = "edge"\nsegment = {_places(segment)}\n'
+        f"traction = {_places(traction)}\n"
+    )
+
+
+def _places(points: Sequence[float] | Sequence[Sequence[float]] | Floats) -> list[Any]:
+    """Coordinates as a file has them, read back to the last digit."""
+    return list(np.asarray(points, dtype=float).tolist())
 
 
 def monitor(name: str, point: Corner | Floats, block: str) -> str:

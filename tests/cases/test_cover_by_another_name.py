@@ -9,7 +9,8 @@ from covers.mathematical.quads import Quads
 from covers.mathematical.triangles import Triangles
 from nmm.formulation import parse_formulation
 from nmm.scene import parse_scene
-from nmm.testing.scenes import block_on_slab, edge_support
+from nmm.testing.scenes import block_on_slab
+from nmm.verification import text
 
 
 class Hats(Triangles):
@@ -30,7 +31,7 @@ class Discs(MovingLeastSquares):
 
 # A block that slides and rests on a slab of two glued materials: mortar contact under the exact
 # enforcement, supports and volumes of patches all ask what cover there is.
-SCENE = block_on_slab(0.45, [edge_support("below", (0, 0), (2, 0))])
+SCENE = block_on_slab(0.45, [text.held_edge("below", ((0, 0), (2, 0)))])
 NAMES = {"triangles": Hats, "quads": Bilinear, "bspline": Smooth, "mls": Discs}
 
 

@@ -19,7 +19,7 @@ from nmm.plots.canvas import (
 )
 from nmm.plots.results.deformed import magnified, moment
 from nmm.plots.shapes import draw_lines, fill, line_width
-from nmm.plots.units import label, prefixed
+from nmm.plots.units import label, prefixed, words_of
 from nmm.results.frame import Frame, Topology
 from nmm.results.sink import RunData
 
@@ -86,7 +86,7 @@ def stress(
     axes = ax or axes_grid(1, 1, 4.0)[0]
     values = factor * values
     signed = bool((values < 0).any()) or component in set(NAMES) - {"mises"}
-    words = NAMES.get(component, component)
+    words = NAMES.get(component) or words_of(component)
     areas = topology.elements.areas
     limit, beyond = scale_end(values, areas)
     drawn = fill(

@@ -22,7 +22,8 @@ from nmm.scene import parse_scene
 from nmm.solvers.linear import make_solver
 from nmm.stepping.drive.linear_statics import equilibrium, hold
 from nmm.stepping.run import Run, run
-from nmm.testing.scenes import block_on_slab, edge_support
+from nmm.testing.scenes import block_on_slab
+from nmm.verification import text
 
 STRESS = np.array([1.032967033, 0.1098901099, 0.1923076923])
 
@@ -56,8 +57,8 @@ def test_polygons_held_by_multipliers_pass_the_patch_test(
 
 
 HALVES = [
-    edge_support("left half", (0, 0), (1, 0)),
-    edge_support("right half", (1, 0), (2, 0)),
+    text.held_edge("left half", ((0, 0), (1, 0))),
+    text.held_edge("right half", ((1, 0), (2, 0))),
 ]
 BASE = block_on_slab(0.2, HALVES)
 COVER = '[cover]\ntype = "triangles"\nsize = 0.3\ndegree = 1\nangle = 0.3\n'

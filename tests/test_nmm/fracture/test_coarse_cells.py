@@ -6,7 +6,7 @@ import pytest
 import nmm
 from nmm.scene.read import parse_scene
 from nmm.verification import text
-from nmm.verification.problems.cracks.crack_scenes import crack, net, pinned, pull
+from nmm.verification.problems.cracks.crack_scenes import crack, net
 
 STILL = "[fracture]\ntoughness = 1e12\nincrement = 1.0\n"
 
@@ -19,10 +19,10 @@ def plate(cover: str, half: float = 1.0, hole: str = "", growth: str = "") -> st
         text.material("m", 1.0, 0.3, None),
         text.block("plate", "m", corners) + hole,
         crack("c", [[-0.5, 0.0], [0.5, 0.0]]),
-        pull("up", top, [0.0, 1.0]),
-        pull("down", bottom, [0.0, -1.0]),
-        pinned("one", [-half, -half], "x", "y"),
-        pinned("other", [half, -half], "y"),
+        text.pulled_edge("up", top, [0.0, 1.0]),
+        text.pulled_edge("down", bottom, [0.0, -1.0]),
+        text.held_point("one", [-half, -half]),
+        text.held_point("other", [half, -half], "y"),
         STILL + growth,
         cover,
     ]

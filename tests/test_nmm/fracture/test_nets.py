@@ -12,7 +12,7 @@ from nmm.scene.read import parse_scene
 from nmm.testing.scenes import PULLED, notched_plate, turned_net
 from nmm.verification import text
 from nmm.verification.problems.cracks.crack_paths import force
-from nmm.verification.problems.cracks.crack_scenes import crack, pinned, pull
+from nmm.verification.problems.cracks.crack_scenes import crack
 
 RULE = 'toughness = 1.0\nincrement = 0.05\nmax_growth = 0.3\ncontrol = "toughness"'
 # Cells across a body of one metre, twice the length of pieces.
@@ -36,8 +36,8 @@ def beam() -> str:
             text.box("beam", (-2.2, 0), (4.4, 1), "m"),
             crack("notch", [[-1.0, -0.1], [-1.0, 0.3]]),
             force("push", [0.0, 1.0], -1.0),
-            pinned("left", [-2.0, 0.0], "x", "y"),
-            pinned("right", [2.0, 0.0], "y"),
+            text.held_point("left", [-2.0, 0.0]),
+            text.held_point("right", [2.0, 0.0], "y"),
             f"[fracture]\n{RULE}\n",
         ],
     )
@@ -52,10 +52,10 @@ def two_cracks() -> str:
             text.box("plate", (0, -1), (1, 2), "m"),
             crack("left", [[-0.1, 0.15], [0.25, 0.15]]),
             crack("right", [[1.1, -0.15], [0.75, -0.15]]),
-            pull("up", [[0.0, 1.0], [1.0, 1.0]], [0.0, 1.0]),
-            pull("down", [[0.0, -1.0], [1.0, -1.0]], [0.0, -1.0]),
-            pinned("lower", [1.0, -1.0], "x", "y"),
-            pinned("other", [0.0, -1.0], "y"),
+            text.pulled_edge("up", [[0.0, 1.0], [1.0, 1.0]], [0.0, 1.0]),
+            text.pulled_edge("down", [[0.0, -1.0], [1.0, -1.0]], [0.0, -1.0]),
+            text.held_point("lower", [1.0, -1.0]),
+            text.held_point("other", [0.0, -1.0], "y"),
             f"[fracture]\ntogether = 0.05\n{RULE}\n",
         ],
     )

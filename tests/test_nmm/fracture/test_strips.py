@@ -9,7 +9,7 @@ import nmm
 from integration.arrays import Floats
 from nmm.scene.read import parse_scene
 from nmm.verification import text
-from nmm.verification.problems.cracks.crack_scenes import crack, guided, net, pinned, pull
+from nmm.verification.problems.cracks.crack_scenes import crack, net
 
 STILL = "[fracture]\ntoughness = 1e12\nincrement = 1.0\n"
 POISSON = 0.3
@@ -38,11 +38,11 @@ def test_ten_tips_of_a_row_of_cracks_have_its_intensity() -> None:
         [
             text.block("plate", "m", text.rectangle((0, -1.5), (5, 1.5))),
             *row,
-            pull("up", [[0.0, 1.5], [5.0, 1.5]], [0.0, 1.0]),
-            pull("down", [[0.0, -1.5], [5.0, -1.5]], [0.0, -1.0]),
-            guided("left", [[0.0, -1.5], [0.0, 1.5]], "x"),
-            guided("right", [[5.0, -1.5], [5.0, 1.5]], "x"),
-            pinned("foot", [0.0, -1.5], "y"),
+            text.pulled_edge("up", [[0.0, 1.5], [5.0, 1.5]], [0.0, 1.0]),
+            text.pulled_edge("down", [[0.0, -1.5], [5.0, -1.5]], [0.0, -1.0]),
+            text.held_edge("left", [[0.0, -1.5], [0.0, 1.5]], "x"),
+            text.held_edge("right", [[5.0, -1.5], [5.0, 1.5]], "x"),
+            text.held_point("foot", [0.0, -1.5], "y"),
             net(0.1, 11.0),
         ]
     )
@@ -60,7 +60,7 @@ def test_four_parallel_cracks_free_what_a_strip_stores() -> None:
             *cracks,
             driven("bottom", 0, 6, '"y"', 0),
             driven("top", 4, 6, '"y"', 4),
-            pinned("end", [6.0, 0.0], "x"),
+            text.held_point("end", [6.0, 0.0], "x"),
             net(0.15, 11.0),
         ]
     )

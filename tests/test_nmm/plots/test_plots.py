@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
+import nmm
 from integration.polygons import Polygons
 from nmm import parse_scene, plots
 from nmm.contact.problem.contact_state import ContactState
@@ -17,6 +18,7 @@ from nmm.plots.results.stress import measure, scale_end
 from nmm.plots.shapes import fill
 from nmm.plots.units import prefixed, words_of
 from nmm.results import MemorySink, Topology
+from nmm.verification import text
 
 SCENE = """
 title = "beam"
@@ -421,3 +423,16 @@ def test_load_against_displacement_takes_what_moved_most(memory_run):
     assert np.array_equal(y, memory_run.history["load_factor"])
     with pytest.raises(NmmError, match="monitor:roof: expected a displacement"):
         plots.load_displacement(memory_run, "roof")
+
+
+def test_a_quantity_that_is_drawn_in_place_of_stress_has_one_picture_of_its_name(tmp_path):
+    tables = [
+        text.material("rock", density=None) + "conductivity = 2.0\nthermal_expansion = 1e-5\n",
+        text.box("block", (0, 0), (2, 1)),
+        text.held_edge("left", [(0, 0), (0, 1)]),
+        '[heat]\n[[temperatures]]\nname = "warm"\nblock = "block"\ntemperature = 10.0\n',
+    ]
+    run = nmm.run(nmm.parse_scene(text.scene('plane = "stress"\n', tables)))
+    drawn = plots.draw_all(run, tmp_path, component="heat:temperature")
+    assert [path.name for path in drawn if "temperature" in path.name] == ["heat_temperature.png"]
+    assert not [path for path in drawn if path.name.startswith("stress")]

@@ -14,7 +14,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, limit
-from nmm.verification.problems.cracks.crack_scenes import crack, pinned, pull
+from nmm.verification.problems.cracks.crack_scenes import crack
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run
@@ -63,10 +63,10 @@ def beam(length: float, law: str, net: str, drive: str = "", own: str = "") -> s
             text.interface("crack", 30.0, more=bond) + f'law = "{law}_softening"\n',
             text.block("beam", "concrete", np.array(outline)),
             crack("plane", [[NOTCH, 0.0], [length + 0.01, 0.0]]) + "bonded = true\n",
-            pinned("one", [length, -ARM], "x", "y"),
-            pinned("other", [length, ARM], "x"),
+            text.held_point("one", [length, -ARM]),
+            text.held_point("other", [length, ARM], "x"),
             *(
-                pull(f"end {number}", [[0.0, low], [0.0, high]], [way * 1e6, 0.0]) + own
+                text.pulled_edge(f"end {number}", [[0.0, low], [0.0, high]], [way * 1e6, 0.0]) + own
                 for number, (low, high, way) in enumerate(ends)
             ),
             text.monitor("up", (NOTCH, 1e-4), "beam"),

@@ -7,7 +7,7 @@ import numpy as np
 
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, limit
-from nmm.verification.problems.cracks.crack_scenes import crack, net, pinned
+from nmm.verification.problems.cracks.crack_scenes import crack, net
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run
@@ -60,10 +60,11 @@ class CohesiveBeam(SceneCase):
                 text.block("beam", "concrete", text.rectangle((-0.2125, 0), (0.2125, self.height))),
                 crack("notch", [[0.0, -0.01], [0.0, self.notch]]),
                 grows if self.angle is not None else drawn,
-                pinned("pin", [-0.2, 0.0], "x", "y"),
-                pinned("roller", [0.2, 0.0], "y"),
-                '[[loads]]\nname = "push"\nkind = "edge"\ntraction = [0, -1000.0]\n'
-                f"segment = [[-0.005, {self.height}], [0.005, {self.height}]]\n",
+                text.held_point("pin", [-0.2, 0.0]),
+                text.held_point("roller", [0.2, 0.0], "y"),
+                text.pulled_edge(
+                    "push", [[-0.005, self.height], [0.005, self.height]], [0, -1000.0]
+                ),
                 text.monitor("left", (-0.001, 0.0), "beam"),
                 text.monitor("right", (0.001, 0.0), "beam"),
                 net(0.02, 17.0 if self.angle is None else self.angle),

@@ -18,7 +18,7 @@ from nmm.verification.problems.cohesive.double_cantilever import (
     opening,
     quadratic,
 )
-from nmm.verification.problems.cracks.crack_scenes import crack, pinned, pull
+from nmm.verification.problems.cracks.crack_scenes import crack
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run
@@ -78,10 +78,10 @@ class PulledApart(BentApart):
                 text.interface("crack", 30.0, more=bond) + 'law = "linear_softening"\n',
                 text.block("beam", "concrete", np.array(outline)),
                 crack("plane", [[NOTCH, 0.0], [LENGTH + 0.01, 0.0]]) + "bonded = true\n",
-                pinned("one", [LENGTH, -ARM], "x", "y"),
-                pinned("other", [LENGTH, ARM], "x"),
-                pull("upper", [[0.0, half], [0.0, ARM]], [0.0, traction]),
-                pull("lower", [[0.0, -ARM], [0.0, -half]], [0.0, -traction]),
+                text.held_point("one", [LENGTH, -ARM]),
+                text.held_point("other", [LENGTH, ARM], "x"),
+                text.pulled_edge("upper", [[0.0, half], [0.0, ARM]], [0.0, traction]),
+                text.pulled_edge("lower", [[0.0, -ARM], [0.0, -half]], [0.0, -traction]),
                 text.monitor("up", (NOTCH, 1e-4), "beam"),
                 text.monitor("down", (NOTCH, -1e-4), "beam"),
                 text.monitor("upper end", (0.0, ARM / 2), "beam"),

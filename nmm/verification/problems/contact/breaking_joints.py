@@ -68,8 +68,8 @@ class BrittleDrop(SceneCase):
             '[formulation.integrator]\nstep = 2e-5\n[formulation.contact]\nbonds = "spring"\n',
             [
                 *_bonded_squares(self.strength, modulus=1e9, density=1000.0),
-                '[[loads]]\nname = "pull"\nkind = "edge"\nsegment = [[0, 1], [1, 1]]\n'
-                f"traction = [0, {2 * self.strength!r}]\nhistory = [[0, 0], [0.01, 1]]\n",
+                text.pulled_edge("pull", [[0, 1], [1, 1]], [0, 2 * self.strength])
+                + "history = [[0, 0], [0.01, 1]]\n",
             ],
         )
 

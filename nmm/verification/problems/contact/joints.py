@@ -44,9 +44,8 @@ class JointedColumn(SceneCase):
                     text.block(f"block {n}", "rock", text.rectangle((0, n), (1, n + 1)))
                     for n in range(high)
                 ),
-                '[[supports]]\nname = "foot"\nsegment = [[0, 0], [1, 0]]\nfix = ["x", "y"]\n',
-                f'[[loads]]\nname = "top"\nkind = "edge"\nsegment = [[0, {high}], [1, {high}]]\n'
-                f"traction = [0, {self.stress!r}]\n",
+                text.held_edge("foot", [[0, 0], [1, 0]]),
+                text.pulled_edge("top", [[0, high], [1, high]], [0, self.stress]),
                 text.monitor("foot", (0.5, 0), "block 0"),
                 text.monitor("top", (0.5, high), f"block {self.joints}"),
             ],
@@ -163,9 +162,8 @@ class Chain(SceneCase):
                     text.block(name, name, text.rectangle((low, 0), (high, 0.01)))
                     for name, low, high in zip(names, x[:-1], x[1:], strict=True)
                 ),
-                '[[supports]]\nname = "left"\nsegment = [[0, 0], [0, 0.01]]\nfix = ["x", "y"]\n',
-                '[[loads]]\nname = "pull"\nkind = "edge"\nsegment = [[0.1, 0], [0.1, 0.01]]\n'
-                "traction = [1e6, 0]\n",
+                text.held_edge("left", [[0, 0], [0, 0.01]]),
+                text.pulled_edge("pull", [[0.1, 0], [0.1, 0.01]], [1e6, 0]),
             ],
         )
 

@@ -92,7 +92,7 @@ class Column(SceneCase):
             [
                 text.material("rock", modulus=self.modulus, poisson=0.0, density=DENSITY),
                 text.block("column", "rock", text.rectangle((0, 0), (1, self.height))),
-                '[[supports]]\nname = "foot"\nsegment = [[0, 0], [1, 0]]\nfix = ["x", "y"]\n',
+                text.held_edge("foot", [[0, 0], [1, 0]]),
                 *(text.monitor(f"y{y}", (0.5, y), "column") for y in (0, 5, 10)),
             ],
         )

@@ -170,8 +170,7 @@ class Punch(Pressure):
                 text.interface("smooth", 0.0),
                 text.block("body", "soft", text.rectangle((-w, -w), (w, 0))),
                 text.block("punch", "rigid", text.rectangle((-1, 0), (1, 1))),
-                f'[[supports]]\nname = "foot"\nsegment = [[{-w}, {-w}], [{w}, {-w}]]\n'
-                'fix = ["x", "y"]\n',
+                text.held_edge("foot", [[-w, -w], [w, -w]]),
                 *text.pins({"punch": (0.0, 1.0)}),
                 *text.pins({"punch": (0.0, 0.5)}, "axis"),
                 '[[loads]]\nname = "press"\nkind = "edge"\nblock = "punch"\n'

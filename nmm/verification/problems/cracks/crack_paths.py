@@ -16,8 +16,6 @@ from nmm.verification.problems.cracks.crack_scenes import (
     grown,
     net,
     path,
-    pinned,
-    pull,
 )
 
 if TYPE_CHECKING:
@@ -67,8 +65,8 @@ class BeamWithHoles(GrowingCrack):
             f"{block}holes = {holes}\n",
             crack("c", [[4.0, 0.0], [4.0, 1.0]]),
             force("load", [10.0, 8.0], -1.0),
-            pinned("left", [1.0, 0.0], "x", "y"),
-            pinned("right", [19.0, 0.0], "y"),
+            text.held_point("left", [1.0, 0.0]),
+            text.held_point("right", [19.0, 0.0], "y"),
             grown(0.2, 10.0),
             net(0.2, 11.0, "graded", options),
         ]
@@ -112,8 +110,8 @@ class ShearedBeam(GrowingCrack):
             force("b", [-0.458, 0.306], -less),
             force("d", [-0.061, 0.0], 1.0),
             force("e", [0.458, 0.0], less),
-            pinned("left", [-0.661, 0.0], "x", "y"),
-            pinned("right", [0.661, 0.0], "y"),
+            text.held_point("left", [-0.661, 0.0]),
+            text.held_point("right", [0.661, 0.0], "y"),
             grown(0.012, 10.0),
             net(0.012, 11.0, "graded", options),
         ]
@@ -161,7 +159,7 @@ class LPanel(GrowingCrack):
             text.block("panel", "m", np.array(ring, dtype=float).tolist()),
             crack("c", [[0.25, 0.25], [0.24293, 0.25707]]),
             force("lift", [0.47, 0.25], 1.0),
-            '[[supports]]\nname = "floor"\nsegment = [[0.0, 0.0], [0.25, 0.0]]\nfix = ["x", "y"]\n',
+            text.held_edge("floor", [[0.0, 0.0], [0.25, 0.0]]),
             grown(0.01, 0.215),
             net(0.008, 11.0, "graded", options),
         ]
@@ -195,17 +193,17 @@ class StressAlongCrack(GrowingCrack):
         foci = [[sign * place, 0.0] for place in (0.4, 0.9, 1.3) for sign in (1, -1)]
         options = f"[formulation.cover.options]\nfocus = {foci}\nradius = 0.3\ngrowth = 0.2\n"
         sides = [
-            pull("east", [[half, -half], [half, half]], [self.along, 0.0]),
-            pull("west", [[-half, -half], [-half, half]], [-self.along, 0.0]),
+            text.pulled_edge("east", [[half, -half], [half, half]], [self.along, 0.0]),
+            text.pulled_edge("west", [[-half, -half], [-half, half]], [-self.along, 0.0]),
         ]
         return [
             text.block("plate", "m", text.rectangle((-half, -half), (half, half))),
             crack("c", [[-x, -y], [-0.5, 0.0], [0.5, 0.0], [x, y]]),
-            pull("up", [[-half, half], [half, half]], [0.0, 1.0]),
-            pull("down", [[-half, -half], [half, -half]], [0.0, -1.0]),
+            text.pulled_edge("up", [[-half, half], [half, half]], [0.0, 1.0]),
+            text.pulled_edge("down", [[-half, -half], [half, -half]], [0.0, -1.0]),
             *(sides if self.along else []),
-            pinned("left", [-half, -half], "x", "y"),
-            pinned("right", [half, -half], "y"),
+            text.held_point("left", [-half, -half]),
+            text.held_point("right", [half, -half], "y"),
             grown(0.05, 0.8),
             net(0.1, 10.0, "graded", options),
         ]

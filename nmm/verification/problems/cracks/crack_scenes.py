@@ -40,24 +40,6 @@ def crack(name: str, points: Line) -> str:
     return f'[[cracks]]\nname = "{name}"\npoints = {points}\n'
 
 
-def pull(name: str, segment: Line, traction: list[float]) -> str:
-    """Table of a traction on an edge."""
-    return (
-        f'[[loads]]\nname = "{name}"\nkind = "edge"\nsegment = {segment}\ntraction = {traction}\n'
-    )
-
-
-def pinned(name: str, point: list[float], *axes: str) -> str:
-    """Table of a point that is held."""
-    fix = ", ".join(f'"{axis}"' for axis in axes)
-    return f'[[supports]]\nname = "{name}"\npoint = {point}\nfix = [{fix}]\n'
-
-
-def guided(name: str, segment: Line, axis: str) -> str:
-    """Table of an edge that is held along one axis."""
-    return f'[[supports]]\nname = "{name}"\nsegment = {segment}\nfix = ["{axis}"]\n'
-
-
 def grown(increment: float, most: float, resistance: str = "toughness = 1.0") -> str:
     """Table of growth at the toughness."""
     rule = f'increment = {increment}\nmax_growth = {most}\ncontrol = "toughness"\n'

@@ -8,7 +8,7 @@ import numpy as np
 
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, limit
-from nmm.verification.problems.cracks.crack_scenes import crack, guided, net, pinned, pull
+from nmm.verification.problems.cracks.crack_scenes import crack, net
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run
@@ -51,9 +51,9 @@ class StruckCrack(SceneCase):
             text.material("m", self.modulus, self.poisson, self.density),
             text.block("plate", "m", text.rectangle((-5.0, -h), (5.0, h))),
             crack("c", [[-5.0, 0.0], [0.0, 0.0]]),
-            pull("up", [[-5.0, h], [5.0, h]], [0.0, self.stress]),
-            pinned("left", [-5.0, -h], "x", "y"),
-            pinned("right", [5.0, -h], "y"),
+            text.pulled_edge("up", [[-5.0, h], [5.0, h]], [0.0, self.stress]),
+            text.held_point("left", [-5.0, -h]),
+            text.held_point("right", [5.0, -h], "y"),
             "[inertia]\n",
             "[fracture]\ntoughness = 1e12\nincrement = 1.0\n",
             net(0.2, 11.0),
@@ -124,14 +124,14 @@ class RunningCrack(SceneCase):
         h, nu = self.half, self.poisson
         way = self.half * self.start
         rate = (4 * self.stress) ** 2 * way * (1 - 2 * nu) / np.pi * (1 + nu) / (1 - nu)
-        sides = [guided(f"side {x:g}", [[x, -h], [x, h]], "x") for x in (-h, h)]
+        sides = [text.held_edge(f"side {x:g}", [[x, -h], [x, h]], "x") for x in (-h, h)]
         motion = f'[formulation.integrator]\ntype = "newmark"\nstep = {self.arrival / 60!r}\n'
         tables: Sequence[str] = [
             text.material("m", self.modulus, nu, self.density),
             text.block("plate", "m", text.rectangle((-h, -h), (h, h))),
             crack("c", [[-h, 0.0], [0.0, 0.0]]),
-            pull("up", [[-h, h], [h, h]], [0.0, self.stress]),
-            pull("down", [[-h, -h], [h, -h]], [0.0, -self.stress]),
+            text.pulled_edge("up", [[-h, h], [h, h]], [0.0, self.stress]),
+            text.pulled_edge("down", [[-h, -h], [h, -h]], [0.0, -self.stress]),
             *sides,
             "[inertia]\n",
             f'[fracture]\ncriterion = "straight_ahead"\nenergy = {float(rate) / self.modulus!r}\n'

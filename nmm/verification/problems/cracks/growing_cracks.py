@@ -15,8 +15,6 @@ from nmm.verification.problems.cracks.crack_scenes import (
     grown,
     net,
     path,
-    pinned,
-    pull,
 )
 
 if TYPE_CHECKING:
@@ -45,15 +43,17 @@ class CompactTension(GrowingCrack):
         side = float(np.hypot(*(circle[1] - circle[0])))
         even = 1 / (half * side)
         ends = [np.stack([ring, np.roll(ring, -1, axis=0)], axis=1).tolist() for ring in rings]
-        loads = [pull(f"up{n}", ends[0][n], [0.0, even]) for n in range(half)]
-        loads += [pull(f"down{n}", ends[1][half + n], [0.0, -even]) for n in range(half)]
+        loads = [text.pulled_edge(f"up{n}", ends[0][n], [0.0, even]) for n in range(half)]
+        loads += [
+            text.pulled_edge(f"down{n}", ends[1][half + n], [0.0, -even]) for n in range(half)
+        ]
         block = text.block("specimen", "m", text.rectangle((-0.25, -0.6), (1.0, 0.6)))
         return [
             f"{block}holes = {[ring.tolist() for ring in rings]}\n",
             crack("c", [[-0.25, 0.0], [0.3, 0.0]]),
             *loads,
-            pinned("lower", [1.0, -0.6], "x", "y"),
-            pinned("upper", [1.0, 0.6], "x"),
+            text.held_point("lower", [1.0, -0.6]),
+            text.held_point("upper", [1.0, 0.6], "x"),
             grown(0.1, 0.3, 'toughness = 1.0\ncriterion = "straight_ahead"'),
             net(0.05, 11.0),
         ]
@@ -91,10 +91,10 @@ class InclinedCrack(GrowingCrack):
         return [
             text.block("plate", "m", text.rectangle((-half, -half), (half, half))),
             crack("c", [[-end, -end], [end, end]]),
-            pull("up", [[-half, half], [half, half]], [0.0, 1.0]),
-            pull("down", [[-half, -half], [half, -half]], [0.0, -1.0]),
-            pinned("left", [-half, -half], "x", "y"),
-            pinned("right", [half, -half], "y"),
+            text.pulled_edge("up", [[-half, half], [half, half]], [0.0, 1.0]),
+            text.pulled_edge("down", [[-half, -half], [half, -half]], [0.0, -1.0]),
+            text.held_point("left", [-half, -half]),
+            text.held_point("right", [half, -half], "y"),
             grown(0.1, 1.0),
             net(0.1, self.angle, "graded", options),
         ]
@@ -141,10 +141,10 @@ class DoubleCantilever(GrowingCrack):
         return [
             text.block("beam", "m", text.rectangle((0.0, -h), (long, h))),
             crack("c", [[0.0, 0.0], [0.5, 0.0]]),
-            pull("up", [[0.0, 0.0], [0.0, h]], [0.0, 1 / h]),
-            pull("down", [[0.0, -h], [0.0, 0.0]], [0.0, -1 / h]),
-            pinned("lower", [long, -h], "x", "y"),
-            pinned("upper", [long, h], "x", "y"),
+            text.pulled_edge("up", [[0.0, 0.0], [0.0, h]], [0.0, 1 / h]),
+            text.pulled_edge("down", [[0.0, -h], [0.0, 0.0]], [0.0, -1 / h]),
+            text.held_point("lower", [long, -h]),
+            text.held_point("upper", [long, h]),
             text.monitor("above", (0.0, h / 2), "beam"),
             text.monitor("below", (0.0, -h / 2), "beam"),
             grown(0.1, 0.7, 'energy = 100.0\ncriterion = "straight_ahead"'),
@@ -190,10 +190,10 @@ class PassingCracks(GrowingCrack):
             text.block("plate", "m", text.rectangle((0.0, -1.0), (1.0, 1.0))),
             crack("left", [[0.0, 0.05], [0.3, 0.05]]),
             crack("right", [[1.0, -0.05], [0.7, -0.05]]),
-            pull("up", [[0.0, 1.0], [1.0, 1.0]], [0.0, 1.0]),
-            pull("down", [[0.0, -1.0], [1.0, -1.0]], [0.0, -1.0]),
-            pinned("lower", [1.0, -1.0], "x", "y"),
-            pinned("other", [0.0, -1.0], "y"),
+            text.pulled_edge("up", [[0.0, 1.0], [1.0, 1.0]], [0.0, 1.0]),
+            text.pulled_edge("down", [[0.0, -1.0], [1.0, -1.0]], [0.0, -1.0]),
+            text.held_point("lower", [1.0, -1.0]),
+            text.held_point("other", [0.0, -1.0], "y"),
             grown(0.02, 10.0) + "together = 0.1\n",
             net(0.05, 17.0),
         ]
@@ -236,10 +236,10 @@ class PassedHole(GrowingCrack):
         return [
             f"{plate}holes = [{ring.tolist()}]\n",
             crack("c", [[0.0, 0.0], [0.2, 0.0]]),
-            pull("up", [[0.0, 1.0], [1.0, 1.0]], [0.0, 1.0]),
-            pull("down", [[0.0, -1.0], [1.0, -1.0]], [0.0, -1.0]),
-            pinned("lower", [1.0, -1.0], "x", "y"),
-            pinned("upper", [1.0, 1.0], "x"),
+            text.pulled_edge("up", [[0.0, 1.0], [1.0, 1.0]], [0.0, 1.0]),
+            text.pulled_edge("down", [[0.0, -1.0], [1.0, -1.0]], [0.0, -1.0]),
+            text.held_point("lower", [1.0, -1.0]),
+            text.held_point("upper", [1.0, 1.0], "x"),
             grown(0.04, 10.0),
             net(0.05, 11.0),
         ]

@@ -15,8 +15,6 @@ from nmm.verification.problems.cracks.crack_scenes import (
     grown,
     net,
     path,
-    pinned,
-    pull,
 )
 
 if TYPE_CHECKING:
@@ -67,10 +65,10 @@ class SameAnywhere(GrowingCrack):
         return [
             text.block("plate", "m", np.array(ring[::-1] if self.where.mirrored else ring)),
             crack("c", [at((-0.05, -0.03)), at((0.3, 0.15))]),
-            pull("up", [at((0.0, 1.0)), at((1.0, 1.0))], way((0.0, 1.0))),
-            pull("down", [at((0.0, -1.0)), at((1.0, -1.0))], way((0.0, -1.0))),
-            pinned("lower", at((1.0, -1.0)), "x", "y"),
-            pinned("other", at((0.0, -1.0)), "x", "y"),
+            text.pulled_edge("up", [at((0.0, 1.0)), at((1.0, 1.0))], way((0.0, 1.0))),
+            text.pulled_edge("down", [at((0.0, -1.0)), at((1.0, -1.0))], way((0.0, -1.0))),
+            text.held_point("lower", at((1.0, -1.0))),
+            text.held_point("other", at((0.0, -1.0))),
             grown(0.03, 0.24),
             net(0.08, self.angle + float(np.degrees(self.where.turn))),
         ]

@@ -55,10 +55,9 @@ class NotchedBeam(SceneCase):
                 text.interface("crack", 35.0, more=plane) + law,
                 text.block("left", "concrete", left),
                 text.block("right", "concrete", left[::-1] * [-1, 1]),
-                '[[supports]]\nname = "pin"\npoint = [-1, 0]\nfix = ["x", "y"]\n',
-                '[[supports]]\nname = "roller"\npoint = [1, 0]\nfix = ["y"]\n',
-                '[[supports]]\nname = "push"\npoint = [0, 0.2]\nfix = ["y"]\n'
-                f"displacement = [0, {-self.way!r}]\n",
+                text.held_point("pin", [-1, 0]),
+                text.held_point("roller", [1, 0], "y"),
+                text.held_point("push", [0, 0.2], "y") + f"displacement = [0, {-self.way!r}]\n",
             ],
         )
 

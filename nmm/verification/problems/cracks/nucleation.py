@@ -10,7 +10,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase
-from nmm.verification.problems.cracks.crack_scenes import net, pinned
+from nmm.verification.problems.cracks.crack_scenes import net
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run
@@ -39,7 +39,7 @@ def led(box: Box, stress: Sequence[str]) -> list[str]:
         f'[[loads]]\nname = "{name}"\nkind = "edge"\nsegment = {at}\nfield = ["{x}", "{y}"]\n'
         for name, at, (x, y) in sides
     ]
-    return [*loads, pinned("one", [x0, y0], "x", "y"), pinned("other", [x1, y0], "y")]
+    return [*loads, text.held_point("one", [x0, y0]), text.held_point("other", [x1, y0], "y")]
 
 
 def ring(corners: int) -> Floats:

@@ -9,7 +9,7 @@ import numpy as np
 
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase
-from nmm.verification.problems.cracks.crack_scenes import crack, pinned, pull
+from nmm.verification.problems.cracks.crack_scenes import crack
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run
@@ -63,8 +63,8 @@ class PushedCrack(SceneCase):
                 text.block("plate", "rock", text.rectangle((-HALF, -HALF), (HALF, HALF))),
                 crack("c", [[-end[0], -end[1]], end]),
                 "[fracture]\ntoughness = 1e12\nincrement = 0.03\n",
-                pinned("one", low, "x", "y"),
-                pinned("other", [high[0], low[1]], "y"),
+                text.held_point("one", low),
+                text.held_point("other", [high[0], low[1]], "y"),
                 self._acting(),
                 f'[formulation.cover]\ntype = "triangles"\nsize = {SIZE}\nangle = 0.19\n',
             ],
@@ -74,7 +74,9 @@ class PushedCrack(SceneCase):
         top, bottom = [[-HALF, HALF], [HALF, HALF]], [[-HALF, -HALF], [HALF, -HALF]]
 
         def pulled(size: float) -> str:
-            return pull("top", top, [0.0, size]) + pull("bottom", bottom, [0.0, -size])
+            return text.pulled_edge("top", top, [0.0, size]) + text.pulled_edge(
+                "bottom", bottom, [0.0, -size]
+            )
 
         def warm(name: str, edge: list[list[float]], size: float) -> str:
             return f'[[temperatures]]\nname = "{name}"\nsegment = {edge}\ntemperature = {size}\n'

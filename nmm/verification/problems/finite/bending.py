@@ -9,7 +9,6 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
-from nmm.verification.problems.solids.plasticity import pull
 from nmm.verification.reading import converged, last_way, way
 
 if TYPE_CHECKING:
@@ -24,7 +23,7 @@ def strip(depth: float, tables: Sequence[str], increment: float) -> str:
         'title = "Strip"\nplane = "stress"\n[loading]\nuntil = 1.0\n',
         [
             text.material("strip", MODULUS, 0.0, None),
-            f'[[supports]]\nname = "root"\nsegment = [[0, 0], [0, {depth!r}]]\nfix = ["x", "y"]\n',
+            text.held_edge("root", [[0, 0], [0, depth]]),
             *tables,
             f"[formulation.loading]\nincrement = {increment!r}\n"
             '[formulation.rotation]\nupdate = "finite"\n',
@@ -57,7 +56,7 @@ class Elastica(SceneCase):
         traction = self.load * MODULUS * h**2 / 12 / LENGTH**2
         tables = [
             text.box("strip", (0, 0), (LENGTH, h), "strip"),
-            pull("end", [(LENGTH, 0), (LENGTH, h)], [0, traction]),
+            text.pulled_edge("end", [(LENGTH, 0), (LENGTH, h)], [0, traction]),
             text.monitor("tip", (LENGTH, h / 2), "strip"),
         ]
         return strip(h, tables, 1.0)
@@ -196,7 +195,7 @@ class BuckledColumn(SceneCase):
         pressure = load * np.pi**2 / 4 * MODULUS * h**2 / 12 / LENGTH**2
         tables = [
             text.box("strip", (0, 0), (LENGTH, h), "strip"),
-            pull("end", [(LENGTH, 0), (LENGTH, h)], [-pressure, 1e-3 * pressure]),
+            text.pulled_edge("end", [(LENGTH, 0), (LENGTH, h)], [-pressure, 1e-3 * pressure]),
             text.monitor("tip", (LENGTH, h / 2), "strip"),
         ]
         return strip(h, tables, 0.1)

@@ -31,7 +31,7 @@ def truss(head: str, tables: Sequence[str]) -> str:
         [
             text.material("steel", STIFFNESS / width, 0.0, None),
             text.block("bar", "steel", [-side, end - side, end + side, side]),
-            '[[supports]]\nname = "hinge"\npoint = [0, 0]\nfix = ["x", "y"]\n',
+            text.held_point("hinge", [0, 0]),
             text.monitor("apex", end, "bar"),
             *tables,
         ],
@@ -54,10 +54,7 @@ class PushedTruss(SceneCase):
         """Return the bar with its end led down."""
         return truss(
             "",
-            [
-                f'[[supports]]\nname = "apex"\npoint = [{SPAN}, {RISE}]\nfix = ["x", "y"]\n'
-                f"displacement = [0, {-self.way * RISE}]\n"
-            ],
+            [text.held_point("apex", [SPAN, RISE]) + f"displacement = [0, {-self.way * RISE}]\n"],
         )
 
     def measure(self, run: "Run") -> Checks:
@@ -80,7 +77,7 @@ class SnappedTruss(SceneCase):
             '[loading]\nuntil = "failure"\n'
             "[formulation.loading]\nincrement = 50.0\ntolerance = 1e-5\n",
             [
-                f'[[supports]]\nname = "apex"\npoint = [{SPAN}, {RISE}]\nfix = ["x"]\n',
+                text.held_point("apex", [SPAN, RISE], "x"),
                 f'[[loads]]\nname = "push"\nkind = "point"\npoint = [{SPAN}, {RISE}]\n'
                 "force = [0, -0.5]\n",
             ],

@@ -20,7 +20,7 @@ from nmm.verification import text
 from nmm.verification.base import Case, Check, Checks, SceneCase, limit, order
 from nmm.verification.continuum import polygon, quarter
 from nmm.verification.formulations import chosen, with_cover
-from nmm.verification.problems.heat.heat_strain import pinned, rollers, warm
+from nmm.verification.problems.heat.heat_strain import warm
 from nmm.verification.problems.solids.cylinders import polar
 from nmm.verification.reading import last_way
 from nmm.verification.series import Series
@@ -66,8 +66,8 @@ class HeatedCylinder(SceneCase):
             [
                 warm("steel", 200e9, 0.3, 12e-6, conductivity=50.0),
                 text.block("wall", "steel", np.concatenate([2 * arc, arc[::-1]])),
-                rollers("left", [(0, 1), (0, 2)], "x"),
-                rollers("low", [(1, 0), (2, 0)], "y"),
+                text.held_edge("left", [(0, 1), (0, 2)], "x"),
+                text.held_edge("low", [(1, 0), (2, 0)], "y"),
                 *faces,
                 text.monitor("inner", (1.0, 0.0), "wall"),
                 text.monitor("outer", (2.0, 0.0), "wall"),
@@ -130,8 +130,8 @@ class ParabolicTemperature(SceneCase):
                 edge("low", np.array([-8, -1]), np.array([8, -1]), 0.0),
                 edge("top", np.array([-8, 1]), np.array([8, 1]), 0.0),
                 '[[heat_sources]]\nname = "inside"\nblock = "plate"\npower = 80.0\n',
-                pinned((0.0, 0.0), "xy", "middle"),
-                pinned((4.0, 0.0), "y", "side"),
+                text.held_point("middle", (0.0, 0.0)),
+                text.held_point("side", (4.0, 0.0), "y"),
             ],
         )
 

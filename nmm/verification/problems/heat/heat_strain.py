@@ -1,6 +1,5 @@
 """Strain of temperatures that are given: held bars, strips, discs, free bodies."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
@@ -38,19 +37,6 @@ def given(block: str, temperature: float, more: str = "") -> str:
     )
 
 
-def rollers(name: str, segment: Sequence[Sequence[float]], axis: str) -> str:
-    """Table of a support of one component along a segment."""
-    place = [[float(x) for x in point] for point in segment]
-    return f'[[supports]]\nname = "{name}"\nsegment = {place}\nfix = ["{axis}"]\n'
-
-
-def pinned(point: Sequence[float], axes: str, name: str) -> str:
-    """Table of a support at a point."""
-    return f'[[supports]]\nname = "{name}"\npoint = {list(point)}\nfix = {list(axes)}\n'.replace(
-        "'", '"'
-    )
-
-
 @dataclass(frozen=True)
 class Restrained(SceneCase):
     """A bar that is held in one direction or two; a gap that closes before it is."""
@@ -70,11 +56,17 @@ class Restrained(SceneCase):
     def scene(self) -> str:
         """Return a bar of 2 m by 1 m, 30 K warmer."""
         sides = {
-            "x": [rollers("left", [(0, 0), (0, 1)], "x"), rollers("right", [(2, 0), (2, 1)], "x")],
-            "y": [rollers("low", [(0, 0), (2, 0)], "y"), rollers("top", [(0, 1), (2, 1)], "y")],
+            "x": [
+                text.held_edge("left", [(0, 0), (0, 1)], "x"),
+                text.held_edge("right", [(2, 0), (2, 1)], "x"),
+            ],
+            "y": [
+                text.held_edge("low", [(0, 0), (2, 0)], "y"),
+                text.held_edge("top", [(0, 1), (2, 1)], "y"),
+            ],
         }
         held = [table for axis in self.axes for table in sides[axis]]
-        held += [] if "y" in self.axes else [pinned((0.0, 0.0), "y", "foot")]
+        held += [] if "y" in self.axes else [text.held_point("foot", (0.0, 0.0), "y")]
         head = f'title = "Restrained bar"\nplane = "{self.plane}"\n[heat]\n'
         bar = [warm("concrete", 30e9, 0.2, 1e-5), text.box("bar", (0, 0), (2, 1), "concrete")]
         return text.scene(head, [*bar, *held, given("bar", 30.0)])
@@ -114,8 +106,8 @@ class ClosingGap(SceneCase):
                 text.box("bar", (0, 0), (2, 0.5), "concrete"),
                 text.box("wall", (gap, -0.5), (1, 1.5), "wall"),
                 text.held("wall"),
-                rollers("left", [(0, 0), (0, 0.5)], "x"),
-                rollers("low", [(0, 0), (2, 0)], "y"),
+                text.held_edge("left", [(0, 0), (0, 0.5)], "x"),
+                text.held_edge("low", [(0, 0), (2, 0)], "y"),
                 given("bar", 30.0),
                 given("wall", 0.0),
             ],
@@ -145,8 +137,8 @@ class Bimetal(SceneCase):
                 GLUE,
                 text.box("low", (0, 0), (20, 0.4), "steel"),
                 text.box("top", (0, 0.4), (20, 0.6), "zinc"),
-                rollers("wall", [(0, 0), (0, 1)], "x"),
-                pinned((0.0, 0.4), "y", "foot"),
+                text.held_edge("wall", [(0, 0), (0, 1)], "x"),
+                text.held_point("foot", (0.0, 0.4), "y"),
                 given("low", 80.0),
                 given("top", 80.0),
                 text.monitor("tip", (20.0, 0.4), "low"),

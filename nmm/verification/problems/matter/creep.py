@@ -11,7 +11,6 @@ from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
 from nmm.verification.continuum import quarter
-from nmm.verification.problems.solids.plasticity import pull, roller
 from nmm.verification.reading import converged, way
 
 if TYPE_CHECKING:
@@ -76,10 +75,10 @@ class ShearCreep(SceneCase):
                     self.law, DELAYED if self.law == "kelvin" else SPRING, 0.25, LAWS[self.law]
                 ),
                 text.box("square", (0, 0), (1, 1), "salt"),
-                '[[supports]]\nname = "pin"\npoint = [0, 0]\nfix = ["x", "y"]\n',
-                '[[supports]]\nname = "slide"\npoint = [1, 0]\nfix = ["y"]\n',
+                text.held_point("pin", [0, 0]),
+                text.held_point("slide", [1, 0], "y"),
                 *(
-                    pull(f"side{number}", (a, b), (self.stress * x, self.stress * y))
+                    text.pulled_edge(f"side{number}", (a, b), (self.stress * x, self.stress * y))
                     for number, (a, b, (x, y)) in enumerate(sides)
                 ),
                 text.monitor("top", (0, 1), "square"),
@@ -131,9 +130,9 @@ class PressedCreep(SceneCase):
             [
                 creeping("maxwell", self.shear, 0.25, [("viscosity", self.viscosity)]),
                 text.box("block", (0, 0), (1, 1), "salt"),
-                roller("base", [(0, 0), (1, 0)], "y"),
-                '[[supports]]\nname = "pin"\npoint = [0, 0]\nfix = ["x"]\n',
-                pull("press", [(0, 1), (1, 1)], [0, -1e6]),
+                text.held_edge("base", [(0, 0), (1, 0)], "y"),
+                text.held_point("pin", [0, 0], "x"),
+                text.pulled_edge("press", [(0, 1), (1, 1)], [0, -1e6]),
                 text.monitor("top", (0.5, 1), "block"),
                 text.monitor("base", (0.5, 0), "block"),
                 steps(1000.0),
@@ -179,14 +178,14 @@ class CylinderCreep(SceneCase):
         pushes = []
         for number, (start, end) in enumerate(pairwise(inner)):
             out = 1e6 * (start + end) / np.linalg.norm(start + end)
-            pushes.append(pull(f"p{number}", [tuple(start), tuple(end)], out))
+            pushes.append(text.pulled_edge(f"p{number}", [tuple(start), tuple(end)], out))
         return text.scene(
             'title = "Cylinder that creeps"\nplane = "strain"\nduration = 1e5\n',
             [
                 creeping("maxwell", 4e9, 0.25, [("viscosity", 4e14)]),
                 text.block("ring", "salt", np.concatenate([inner, 2 * inner[::-1]])),
-                roller("x", [(0, 1), (0, 2)], "x"),
-                roller("y", [(1, 0), (2, 0)], "y"),
+                text.held_edge("x", [(0, 1), (0, 2)], "x"),
+                text.held_edge("y", [(1, 0), (2, 0)], "y"),
                 *pushes,
                 text.monitor("inner", (1, 0), "ring"),
                 steps(5000.0),

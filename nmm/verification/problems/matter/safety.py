@@ -42,8 +42,8 @@ class SoilSlope(SceneCase):
                 f"poisson_ratio = 0.3\ndensity = {WEIGHT / 9.81!r}\ncohesion = 1e4\n"
                 'friction_angle = "20 deg"\n',
                 text.block("slope", "soil", [(0, 0), (42, 0), (42, 10), (20, 10)]),
-                '[[supports]]\nname = "base"\nsegment = [[0, 0], [42, 0]]\nfix = ["x", "y"]\n',
-                '[[supports]]\nname = "far"\nsegment = [[42, 0], [42, 10]]\nfix = ["x"]\n',
+                text.held_edge("base", [[0, 0], [42, 0]]),
+                text.held_edge("far", [[42, 0], [42, 10]], "x"),
                 "[gravity]\n[strength_reduction]\nlowest = 0.8\nhighest = 2.0\n",
             ],
         )

@@ -10,7 +10,6 @@ from nmm.formulation import Formulation
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
 from nmm.verification.formulations import with_cover
-from nmm.verification.problems.solids.plasticity import pull, roller
 from nmm.verification.reading import converged
 
 if TYPE_CHECKING:
@@ -58,13 +57,13 @@ class SofteningLayer(SceneCase):
                 f"softening_energy = {ENERGY}\nresidual_cohesion = {LEFT}\n"
                 f"residual_friction_angle = {LAST!r}\n",
                 text.box("layer", (0, 0), (WIDTH, HEIGHT), "ground"),
-                *(roller(name, [(x, 0), (x, HEIGHT)], "y") for name, x in sides.items()),
+                *(text.held_edge(name, [(x, 0), (x, HEIGHT)], "y") for name, x in sides.items()),
                 *(
-                    pull(f"press {name}", [(x, 0), (x, HEIGHT)], (PRESSURE * sign, 0))
+                    text.pulled_edge(f"press {name}", [(x, 0), (x, HEIGHT)], (PRESSURE * sign, 0))
                     for (name, x), sign in zip(sides.items(), (1, -1), strict=True)
                 ),
-                roller("foot", [(0, 0), (WIDTH, 0)], 'x", "y'),
-                roller("top", [(0, HEIGHT), (WIDTH, HEIGHT)], 'x", "y')
+                text.held_edge("foot", [(0, 0), (WIDTH, 0)]),
+                text.held_edge("top", [(0, HEIGHT), (WIDTH, HEIGHT)])
                 + f"displacement = [{WAY}, 0]\n",
                 f'[[loads]]\nname = "more"\nkind = "body"\ndensity = [{PUSH}, 0]\n',
                 f'[[initial_stresses]]\nblock = "layer"\nstress = [{-PRESSURE}, {-PRESSURE}, 0]\n'

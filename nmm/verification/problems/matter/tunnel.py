@@ -9,7 +9,6 @@ import numpy as np
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
 from nmm.verification.continuum import quarter
-from nmm.verification.problems.solids.plasticity import pull, roller
 from nmm.verification.reading import converged, way
 
 if TYPE_CHECKING:
@@ -48,8 +47,9 @@ class FlowingTunnel(SceneCase):
             out = (start + end) / np.linalg.norm(start + end)
             wall, rim = ([tuple(r * start), tuple(r * end)] for r in (1.0, RIM))
             edges += [
-                pull(f"wall {number}", wall, PRESSURE * out) + "history = [[0, 1], [1, 0]]\n",
-                pull(f"rim {number}", rim, -PRESSURE * out),
+                text.pulled_edge(f"wall {number}", wall, PRESSURE * out)
+                + "history = [[0, 1], [1, 0]]\n",
+                text.pulled_edge(f"rim {number}", rim, -PRESSURE * out),
                 f'[[foundations]]\nname = "beyond {number}"\n'
                 f"segment = {[list(map(float, one)) for one in rim]}\n"
                 f"normal_stiffness = {2 * SHEAR / RIM!r}\n",
@@ -64,8 +64,8 @@ class FlowingTunnel(SceneCase):
                 text.block("ring", "rock", np.concatenate([inner, RIM * inner[::-1]])),
                 f'[[initial_stresses]]\nblock = "all"\nacross = {-PRESSURE}\n'
                 f"stress = [{-PRESSURE}, {-PRESSURE}, 0]\n",
-                roller("x", [(0, 1), (0, RIM)], "x"),
-                roller("y", [(1, 0), (RIM, 0)], "y"),
+                text.held_edge("x", [(0, 1), (0, RIM)], "x"),
+                text.held_edge("y", [(1, 0), (RIM, 0)], "y"),
                 *edges,
                 text.monitor("wall", (1.0, 0.0), "ring"),
             ],

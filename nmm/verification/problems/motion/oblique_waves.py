@@ -111,8 +111,11 @@ class ObliqueWave(SceneCase):
         """Return a square whose foot is the boundary."""
         each = [one.expressions(size) for one, size in zip(self.waves, self.sizes, strict=True)]
         field = [" + ".join(parts) for parts in zip(*each, strict=True)]
-        edges = {"left": [[0, 0], [0, SIDE]], "right": [[SIDE, 0], [SIDE, SIDE]]}
-        edges["top"] = [[0, SIDE], [SIDE, SIDE]]
+        edges: dict[str, list[text.Corner]] = {
+            "left": [(0, 0), (0, SIDE)],
+            "right": [(SIDE, 0), (SIDE, SIDE)],
+            "top": [(0, SIDE), (SIDE, SIDE)],
+        }
         return text.scene(
             f'title = "Oblique wave"\nplane = "strain"\nduration = {self._last!r}\n[inertia]\n'
             '[formulation.integrator]\ntype = "newmark"\nstep = 0.01\n'
@@ -122,8 +125,7 @@ class ObliqueWave(SceneCase):
                 text.box("ground", (0, 0), (SIDE, SIDE), "ground"),
                 f'[[viscous_boundaries]]\nname = "foot"\nsegment = [[0, 0], [{SIDE}, 0]]\n',
                 *(
-                    f'[[supports]]\nname = "{name}"\nsegment = {ends}\nfix = ["x", "y"]\n'
-                    f'field = ["{field[0]}", "{field[1]}"]\n'
+                    text.held_edge(name, ends) + f'field = ["{field[0]}", "{field[1]}"]\n'
                     for name, ends in edges.items()
                 ),
                 text.monitor("foot", (SIDE / 2, 0), "ground"),

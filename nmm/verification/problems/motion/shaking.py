@@ -73,8 +73,7 @@ class Swing(SceneCase):
                 text.block("square", "soil", text.rectangle((0, 0), (1, 1))),
                 support("base", "segment = [[0, 0], [1, 0]]", "x"),
                 support("level", 'block = "square"', "y"),
-                '[[loads]]\nname = "pull"\nkind = "edge"\nsegment = [[0, 1], [1, 1]]\n'
-                "traction = [1e3, 0]\n",
+                text.pulled_edge("pull", [[0, 1], [1, 1]], [1e3, 0]),
                 text.monitor("top", (0.5, 1.0), "square"),
             ],
         )

@@ -35,10 +35,9 @@ class BarWave(SceneCase):
             [
                 text.material("soft", modulus=1.0, poisson=0.0, density=1.0),
                 text.block("bar", "soft", text.rectangle((0, 0), (long, high))),
-                f'[[supports]]\nname = "left"\nsegment = [[0, 0], [0, {high}]]\nfix = ["x"]\n',
-                '[[supports]]\nname = "pin"\npoint = [0, 0]\nfix = ["y"]\n',
-                f'[[loads]]\nname = "pull"\nkind = "edge"\n'
-                f"segment = [[{long}, 0], [{long}, {high}]]\ntraction = [{self.stress}, 0]\n",
+                text.held_edge("left", [[0, 0], [0, high]], "x"),
+                text.held_point("pin", [0, 0], "y"),
+                text.pulled_edge("pull", [[long, 0], [long, high]], [self.stress, 0]),
                 text.monitor("middle", (long / 2, high / 2), "bar"),
                 text.monitor("end", (long, high / 2), "bar"),
             ],

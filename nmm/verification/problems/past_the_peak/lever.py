@@ -38,8 +38,7 @@ class Lever(SceneCase):
             text.material("steel", modulus=1e11, poisson=0.0),
             text.block("lever", "steel", text.rectangle((0, 1), (1.6, 1.2))),
             '[[supports]]\nname = "hinge"\npoint = [0, 1]\nblock = "lever"\nfix = ["x", "y"]\n',
-            f'[[loads]]\nname = "push"\nkind = "edge"\nsegment = [[{ARM - 0.01}, 1.2], '
-            f"[{ARM + 0.01}, 1.2]]\ntraction = [0, 50.0]\n",
+            text.pulled_edge("push", [[ARM - 0.01, 1.2], [ARM + 0.01, 1.2]], [0, 50.0]),
             text.monitor("tip", (ARM, 1.2), "lever"),
         ]
         for number, place in enumerate(PLACES):
@@ -49,8 +48,7 @@ class Lever(SceneCase):
                 text.material(f"rock{number}", modulus=STIFFNESS / WIDTH, poisson=0.0),
                 text.block(f"link{number}", f"rock{number}", text.rectangle(*ends)),
                 text.interface(f"bond{number}", 30.0, ("steel", f"rock{number}"), more),
-                f'[[supports]]\nname = "foot{number}"\nsegment = [[{ends[0][0]}, 0], '
-                f'[{ends[1][0]}, 0]]\nfix = ["x", "y"]\n',
+                text.held_edge(f"foot{number}", [[ends[0][0], 0], [ends[1][0], 0]]),
             ]
         head = 'plane = "stress"\n[contact]\n[loading]\nuntil = "failure"\n'
         return text.scene(f'{head}[loading.control]\ntype = "events"\n', tables)

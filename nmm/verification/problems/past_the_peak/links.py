@@ -37,7 +37,7 @@ def bundle(
         left = number * 0.3
         each = 1e6 if stiffness is None else stiffness[number]
         more = {"cohesion": 1e9, "bonded": True, "tensile_strength": strength / width}
-        ends = f"[[{left}, 1], [{left + width}, 1]]"
+        ends = [[left, 1], [left + width, 1]]
         tables += [
             text.material(f"rock{number}", modulus=each / width, poisson=0.0),
             text.material(f"f{number}", modulus=1e14, poisson=0.0),
@@ -45,8 +45,7 @@ def bundle(
             text.block(f"c{number}", f"rock{number}", text.rectangle((left, 0), (left + width, 1))),
             text.block(f"b{number}", f"f{number}", text.rectangle((left, -1), (left + width, 0))),
             text.held(f"b{number}"),
-            f'[[supports]]\nname = "s{number}"\nsegment = {ends}\nfix = ["x", "y"]\n'
-            "displacement = [0, 1e-6]\n",
+            text.held_edge(f"s{number}", ends) + "displacement = [0, 1e-6]\n",
         ]
     tables.append(text.monitor("top", (width / 2, 1), "c0"))
     head = 'plane = "stress"\n[contact]\n[loading]\nuntil = "failure"\n'

@@ -39,10 +39,9 @@ def softening_bar(
             text.interface("joint", 30.0, more=joint) + softening,
             text.block("a", "rock", text.rectangle((0, 0), (half, high))),
             text.block("b", "rock", text.rectangle((half, 0), (length, high))),
-            f'[[supports]]\nname = "left"\nsegment = [[0, 0], [0, {high}]]\nfix = ["x", "y"]\n',
-            f'[[loads]]\nname = "pull"\nkind = "edge"\ntraction = [{1 / AREA!r}, 0]\n'
-            f"segment = [[{length}, 0], [{length}, {high}]]\n",
-            f'[[supports]]\nname = "track"\nsegment = [[{half}, 0], [{length}, 0]]\nfix = ["y"]\n',
+            text.held_edge("left", [[0, 0], [0, high]]),
+            text.pulled_edge("pull", [[length, 0], [length, high]], [1 / AREA, 0]),
+            text.held_edge("track", [[half, 0], [length, 0]], "y"),
             text.monitor("end", (length, high / 2), "b"),
             text.monitor("one", (half, high / 2), "a"),
             text.monitor("other", (half, high / 2), "b"),

@@ -120,9 +120,8 @@ class Bars(SceneCase):
                 text.interface("glue", 0.0, more={"bonded": True}),
                 text.box("left", (0, 0), (1, 1), "soft"),
                 text.box("right", (1, 0), (1, 1), "hard"),
-                '[[supports]]\nname = "wall"\nsegment = [[0, 0], [0, 1]]\nfix = ["x", "y"]\n',
-                '[[loads]]\nname = "pull"\nkind = "edge"\nsegment = [[2, 0], [2, 1]]\n'
-                "traction = [1, 0]\n",
+                text.held_edge("wall", [[0, 0], [0, 1]]),
+                text.pulled_edge("pull", [[2, 0], [2, 1]], [1, 0]),
                 text.monitor("root", (0, 0.5), "left"),
                 text.monitor("tip", (2, 0.5), "right"),
             ],
@@ -169,8 +168,7 @@ class Core(SceneCase):
         c = quarter(1.0, 32)[::-1]
         middle = (c[1:] + c[:-1]).tolist()
         rim = (
-            f'[[supports]]\nname = "o{i}"\nsegment = {(2 * c[i : i + 2]).tolist()}\n'
-            f'fix = ["x", "y"]\ndisplacement = {middle[i]}\n'
+            text.held_edge(f"o{i}", (2 * c[i : i + 2]).tolist()) + f"displacement = {middle[i]}\n"
             for i in range(len(middle))
         )
         return text.scene(
@@ -181,8 +179,8 @@ class Core(SceneCase):
                 text.interface("glue", 0.0, more={"bonded": True}),
                 text.block("core", "core", np.concatenate([[[0.0, 0.0]], 0.4 * c])),
                 text.block("ring", "ring", np.concatenate([2 * c, 0.4 * c[::-1]])),
-                '[[supports]]\nname = "x"\nsegment = [[0, 0], [0, 2]]\nfix = ["x"]\n',
-                '[[supports]]\nname = "y"\nsegment = [[0, 0], [2, 0]]\nfix = ["y"]\n',
+                text.held_edge("x", [[0, 0], [0, 2]], "x"),
+                text.held_edge("y", [[0, 0], [2, 0]], "y"),
                 *rim,
             ],
         )

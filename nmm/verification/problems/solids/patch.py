@@ -248,9 +248,8 @@ class Jump(SceneCase):
                 text.interface("joint", 0.0, more=bond),
                 text.box("left", (0, 0), (1, 1), "soft"),
                 text.box("right", (1, 0), (1, 1), "soft"),
-                '[[supports]]\nname = "wall"\nsegment = [[0, 0], [0, 1]]\nfix = ["x", "y"]\n',
-                '[[loads]]\nname = "pull"\nkind = "edge"\nsegment = [[2, 0], [2, 1]]\n'
-                "traction = [1, 0]\n",
+                text.held_edge("wall", [[0, 0], [0, 1]]),
+                text.pulled_edge("pull", [[2, 0], [2, 1]], [1, 0]),
                 text.monitor("root", (0, 0.5), "left"),
                 text.monitor("near", (1, 0.5), "left"),
                 text.monitor("far", (1, 0.5), "right"),

@@ -10,7 +10,7 @@ import numpy as np
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
 from nmm.verification.continuum import quarter
-from nmm.verification.problems.solids.plasticity import flowing, pull, roller
+from nmm.verification.problems.solids.plasticity import flowing
 from nmm.verification.reading import way
 
 if TYPE_CHECKING:
@@ -57,14 +57,14 @@ class PlasticCylinder(SceneCase):
         pushes = []
         for number, (start, end) in enumerate(pairwise(inner)):
             out = (start + end) / np.linalg.norm(start + end)
-            pushes.append(pull(f"p{number}", [tuple(start), tuple(end)], out))
+            pushes.append(text.pulled_edge(f"p{number}", [tuple(start), tuple(end)], out))
         return text.scene(
             'title = "Cylinder that flows"\nplane = "strain"\n',
             [
                 steel,
                 text.block("ring", "steel", np.concatenate([inner, 2 * inner[::-1]])),
-                roller("x", [(0, 1), (0, 2)], "x"),
-                roller("y", [(1, 0), (2, 0)], "y"),
+                text.held_edge("x", [(0, 1), (0, 2)], "x"),
+                text.held_edge("y", [(1, 0), (2, 0)], "y"),
                 *pushes,
                 text.monitor("outer", (2, 0), "ring"),
                 '[loading]\nuntil = "failure"\nmaximum_factor = 2.0\n',
@@ -147,10 +147,10 @@ class Footing(SceneCase):
                 f"poisson_ratio = 0.3\ncohesion = 1.0\nfriction_angle = {angles}\n"
                 f"dilation_angle = {angles}\n{match}",
                 text.block("soil", "soil", [(0, 0), (wide, 0), (wide, deep), (1, deep), (0, deep)]),
-                roller("middle", [(0, 0), (0, deep)], "x"),
-                roller("far", [(wide, 0), (wide, deep)], "x"),
-                f'[[supports]]\nname = "base"\nsegment = [[0, 0], [{wide}, 0]]\nfix = ["x", "y"]\n',
-                pull("footing", [(0, deep), (1, deep)], [0, -1]),
+                text.held_edge("middle", [(0, 0), (0, deep)], "x"),
+                text.held_edge("far", [(wide, 0), (wide, deep)], "x"),
+                text.held_edge("base", [[0, 0], [wide, 0]]),
+                text.pulled_edge("footing", [(0, deep), (1, deep)], [0, -1]),
                 f'[loading]\nuntil = "failure"\nmaximum_factor = {2 * self.capacity!r}\n',
                 f"[formulation.loading]\nincrement = {self.capacity / 10!r}\ntolerance = 0.005\n",
             ],

@@ -1,6 +1,5 @@
 """Bodies that flow: a bar, a beam that bends, a thick cylinder under inner pressure."""
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,21 +21,6 @@ def flowing(yields: float, modulus: float, poisson: float, hardens: float = 0.0)
         f'[materials.steel]\nlaw = "von_mises"\nyoung_modulus = {modulus!r}\n'
         f"poisson_ratio = {poisson!r}\nyield_stress = {yields!r}\nhardening_modulus = {hardens!r}\n"
     )
-
-
-def pull(name: str, segment: Sequence[tuple[float, float]], traction: Sequence[float]) -> str:
-    """Table of an edge load."""
-    where = [list(map(float, point)) for point in segment]
-    return (
-        f'[[loads]]\nname = "{name}"\nkind = "edge"\nsegment = {where}\n'
-        f"traction = {list(map(float, traction))}\n"
-    )
-
-
-def roller(name: str, segment: Sequence[tuple[float, float]], axis: str) -> str:
-    """Table of a support of one direction along an edge."""
-    where = [list(map(float, point)) for point in segment]
-    return f'[[supports]]\nname = "{name}"\nsegment = {where}\nfix = ["{axis}"]\n'
 
 
 class PlasticBar(SceneCase):
@@ -63,9 +47,9 @@ class PlasticBar(SceneCase):
             [
                 flowing(self.yields, self.modulus, 0.3, self.hardens),
                 text.box("bar", (0, 0), (2, 1), "steel"),
-                roller("left", [(0, 0), (0, 1)], "x"),
-                '[[supports]]\nname = "pin"\npoint = [0, 0]\nfix = ["y"]\n',
-                pull("pull", [(2, 0), (2, 1)], [self.stress, 0]) + history,
+                text.held_edge("left", [(0, 0), (0, 1)], "x"),
+                text.held_point("pin", [0, 0], "y"),
+                text.pulled_edge("pull", [(2, 0), (2, 1)], [self.stress, 0]) + history,
                 text.monitor("root", (0, 0.5), "bar"),
                 text.monitor("tip", (2, 0.5), "bar"),
                 "[loading]\nuntil = 2.0\nscaled = []\n",
@@ -116,10 +100,10 @@ class PlasticBeam(SceneCase):
             [
                 flowing(1.0, 1000.0, 0.3),
                 text.block("beam", "steel", [(0, 0), (9, 0), (9, 1), (3.5, 1), (2.5, 1), (0, 1)]),
-                roller("middle", [(0, 0), (0, 1)], "x"),
-                '[[supports]]\nname = "pin"\npoint = [0, 0.5]\nfix = ["y"]\n',
-                pull("end", [(9, 0), (9, 1)], [0, force]),
-                pull("load", [(2.5, 1), (3.5, 1)], [0, -force]),
+                text.held_edge("middle", [(0, 0), (0, 1)], "x"),
+                text.held_point("pin", [0, 0.5], "y"),
+                text.pulled_edge("end", [(9, 0), (9, 1)], [0, force]),
+                text.pulled_edge("load", [(2.5, 1), (3.5, 1)], [0, -force]),
                 text.monitor("middle", (0, 0.0), "beam"),
                 text.monitor("bent", (2, 0.0), "beam"),
                 '[loading]\nuntil = "failure"\nmaximum_factor = 3.0\n',

@@ -38,9 +38,8 @@ class SpalledBar(SceneCase):
                 text.box("bar", (0, 0), (self.long, self.high), "unit"),
                 f"[splitting.unit]\ntensile_strength = {0.75 * self.pressure}\n"
                 'smallest_block = 0.05\nmost_blocks = 2\njudged_at = "elements"\n',
-                f'[[loads]]\nname = "blow"\nkind = "edge"\nsegment = [[0, 0], [0, {self.high}]]\n'
-                f"traction = [{self.pressure}, 0]\n"
-                "history = [[0, 0], [0.1, 1], [1, 1], [1.1, 0]]\n",
+                text.pulled_edge("blow", [[0, 0], [0, self.high]], [self.pressure, 0])
+                + "history = [[0, 0], [0.1, 1], [1, 1], [1.1, 0]]\n",
                 text.monitor("near", (0.02, self.high / 2), "bar"),
                 text.monitor("end", (self.long - 0.25, self.high / 2), "bar"),
             ],

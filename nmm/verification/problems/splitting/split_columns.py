@@ -81,10 +81,9 @@ class CrushedColumn(SceneCase):
                 text.interface("contact", 20.0),
                 text.box("column", (0, 0), (w, h), "concrete"),
                 strength("concrete", 5e-3),
-                f'[[supports]]\nname = "foot"\nsegment = [[0, 0], [{w}, 0]]\nfix = ["y"]\n',
-                f'[[supports]]\nname = "side"\nsegment = [[0, 0], [0, {h}]]\nfix = ["x"]\n',
-                f'[[loads]]\nname = "head"\nkind = "edge"\nsegment = [[0, {h}], [{w}, {h}]]\n'
-                f"traction = [0, {pressure}]\n",
+                text.held_edge("foot", [[0, 0], [w, 0]], "y"),
+                text.held_edge("side", [[0, 0], [0, h]], "x"),
+                text.pulled_edge("head", [[0, h], [w, h]], [0, pressure]),
             ],
         )
 

@@ -50,8 +50,7 @@ class AddedColumn(SceneCase):
                 f"segment = [[{left}, 0], [{right}, 0]]\n",
             ]
         tables += [
-            f'[[loads]]\nname = "{name}"\nkind = "edge"\nsegment = [[-2, 5], [2, 5]]\n'
-            f"traction = [0, {-force / 4}]\n"
+            text.pulled_edge(name, [[-2, 5], [2, 5]], [0, -force / 4])
             for name, force in (("first", 1e6), ("more", 2e6))
         ]
         tables.append(
@@ -109,7 +108,7 @@ class Embankment(SceneCase):
         tables = [
             text.material("fill", self.modulus, self.poisson, self.density),
             text.interface("any", 30.0, more={"bonded": True}),
-            '[[supports]]\nname = "ground"\nsegment = [[0, 0], [2, 0]]\nfix = ["x", "y"]\n',
+            text.held_edge("ground", [[0, 0], [2, 0]]),
         ]
         for number in range(n):
             low, top = number * h, (number + 1) * h

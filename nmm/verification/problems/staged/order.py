@@ -38,8 +38,7 @@ class TwoHoles(SceneCase):
                 *(text.block(key, "rock", hole) for key, hole in holes.items()),
                 '[[initial_stresses]]\nblock = "all"\nstress = [-5e6, -10e6, 1e6]\n',
                 *(
-                    f'[[supports]]\nname = "side {n}"\nsegment = {np.array(side).tolist()}\n'
-                    'fix = ["x", "y"]\n'
+                    text.held_edge(f"side {n}", np.array(side).tolist())
                     for n, side in enumerate(
                         zip(outline, np.roll(outline, -1, axis=0), strict=True)
                     )
@@ -82,7 +81,7 @@ class MiddleSupport(SceneCase):
     def scene(self) -> str:
         """Return the beam, 1 m high, on its three points."""
         places = {"left": 0.0, "middle": self.span, "right": 2 * self.span}
-        top = [[0, 1], [2 * self.span, 1]]
+        top = [(0.0, 1.0), (2 * self.span, 1.0)]
         return text.scene(
             'title = "Beam"\nplane = "stress"\n[formulation.loading]\nincrement = 1.0\n',
             [
@@ -93,8 +92,7 @@ class MiddleSupport(SceneCase):
                     + ('fix = ["x", "y"]\n' if name == "left" else 'fix = ["y"]\n')
                     for name, x in places.items()
                 ),
-                f'[[loads]]\nname = "q"\nkind = "edge"\nsegment = {top}\n'
-                f"traction = [0, {-self.load}]\n",
+                text.pulled_edge("q", top, [0, -self.load]),
                 '[[stages]]\nname = "three"\n',
                 '[[stages]]\nname = "two"\nsupports = ["left", "right"]\n',
             ],
@@ -133,7 +131,7 @@ class UnloadedStack(SceneCase):
                 text.material("rock", density=self.density),
                 text.interface("contact", 30.0),
                 *(text.box(f"block {n}", (0, n), (1, 1)) for n in range(5)),
-                '[[supports]]\nname = "ground"\nsegment = [[0, 0], [1, 0]]\nfix = ["x", "y"]\n',
+                text.held_edge("ground", [[0, 0], [1, 0]]),
                 '[[stages]]\nname = "five"\n',
                 '[[stages]]\nname = "three"\nremove = ["block 3", "block 4"]\n',
             ],

@@ -8,7 +8,6 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, limit
-from nmm.verification.problems.solids.plasticity import roller
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run
@@ -59,7 +58,7 @@ class BeddedLayer(SceneCase):
                 text.material("shale", 1e9, 0.3, None)
                 + f'{key} = {ALONG}\n{key}_2 = {ACROSS}\naxis_angle = "{RISE} deg"\n',
                 text.block("layer", "shale", corners),
-                roller("base", corners[:2], 'x", "y'),
+                text.held_edge("base", corners[:2]),
                 *(
                     f'[[{table}]]\nname = "{name}"\n{amount} = {value}\n'
                     f"segment = {[list(corners[i]) for i in pair]}\n"

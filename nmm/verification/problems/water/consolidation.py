@@ -67,11 +67,10 @@ class ConsolidatingColumn(SceneCase):
                 + f"hydraulic_conductivity = {conductivity!r}\nspecific_storage = {storage!r}\n",
                 text.block("soil", "soil", text.rectangle((0, 0), (1, HEIGHT))),
                 f'[[heads]]\nname = "top"\nsegment = {top}\nhead = {HEIGHT!r}\n',
-                f'[[loads]]\nname = "fill"\nkind = "edge"\nsegment = {top}\n'
-                f"traction = [0, {-LOAD!r}]\n",
-                f'[[supports]]\nname = "base"\nsegment = [{corner}, [1, 0]]\nfix = ["y"]\n',
-                f'[[supports]]\nname = "left"\nsegment = [{corner}, {top[0]}]\nfix = ["x"]\n',
-                f'[[supports]]\nname = "right"\nsegment = [[1, 0], {top[1]}]\nfix = ["x"]\n',
+                text.pulled_edge("fill", top, [0, -LOAD]),
+                text.held_edge("base", [corner, [1, 0]], "y"),
+                text.held_edge("left", [corner, top[0]], "x"),
+                text.held_edge("right", [[1, 0], top[1]], "x"),
                 text.monitor("top", (0.5, HEIGHT), "soil"),
             ],
         )

@@ -12,7 +12,6 @@ from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, limit
 from nmm.verification.continuum import quarter
 from nmm.verification.formulations import with_cover
-from nmm.verification.problems.heat.heat_strain import pinned, rollers
 from nmm.verification.problems.solids.cylinders import polar
 from nmm.verification.problems.water.water_pressures import water
 from nmm.verification.reading import last_way
@@ -79,9 +78,9 @@ class RisingWater(SceneCase):
             [
                 porous("soil", 50e6, 0.3),
                 text.box("column", (0, 0), (2, 10), "soil"),
-                rollers("left", [(0, 0), (0, 10)], "x"),
-                rollers("right", [(2, 0), (2, 10)], "x"),
-                rollers("low", [(0, 0), (2, 0)], "y"),
+                text.held_edge("left", [(0, 0), (0, 10)], "x"),
+                text.held_edge("right", [(2, 0), (2, 10)], "x"),
+                text.held_edge("low", [(0, 0), (2, 0)], "y"),
                 head("above", np.array([0, 10]), np.array([2, 10]), 10.0),
                 head("below", np.array([0, 0]), np.array([2, 0]), 10.0 + 10.0 * rise),
             ],
@@ -131,8 +130,8 @@ class PorousCylinder(SceneCase):
             [
                 porous("rock", 10e9, 0.25, "biot = 0.8\n"),
                 text.block("wall", "rock", np.concatenate([2 * arc, arc[::-1]])),
-                rollers("left", [(0, 1), (0, 2)], "x"),
-                rollers("low", [(1, 0), (2, 0)], "y"),
+                text.held_edge("left", [(0, 1), (0, 2)], "x"),
+                text.held_edge("low", [(1, 0), (2, 0)], "y"),
                 *faces,
                 # A pressure that is even around has water of its own weight fall through the wall.
                 '[[inflows]]\nname = "low"\nsegment = [[1, 0], [2, 0]]\nvelocity = -1e-6\n',
@@ -181,8 +180,8 @@ class SeepingDam(SceneCase):
             [
                 porous("soil", 50e6, 0.3),
                 text.box("dam", (0, 0), (8, 12), "soil"),
-                rollers("low", [(0, 0), (8, 0)], "y"),
-                pinned((0.0, 0.0), "x", "foot"),
+                text.held_edge("low", [(0, 0), (8, 0)], "y"),
+                text.held_point("foot", (0.0, 0.0), "x"),
                 head("up", np.array([0, 0]), np.array([0, 12]), 10.0),
                 head("down", np.array([8, 0]), np.array([8, 12]), 2.0),
             ],
@@ -231,8 +230,8 @@ class Layers(SceneCase):
                 glue,
                 text.box("a", (0, 0), (1, 1), "soil"),
                 text.box("b", (1, 0), (1, 1), "soil"),
-                rollers("left", [(0, 0), (0, 1)], "x"),
-                pinned((0.0, 0.0), "y", "foot"),
+                text.held_edge("left", [(0, 0), (0, 1)], "x"),
+                text.held_point("foot", (0.0, 0.0), "y"),
                 head("in", np.array([0, 0]), np.array([0, 1]), 12.0),
                 head("out", np.array([2, 0]), np.array([2, 1]), 0.0),
             ],

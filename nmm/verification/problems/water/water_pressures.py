@@ -183,8 +183,8 @@ class PressurisedCrack(SceneCase):
                 f'[[cracks]]\nname = "crack"\npoints = {[[-x for x in tip], tip]}\n',
                 # A level so high that the pressure is even to 1e-6.
                 water("water", 'crack = "crack"\nlevel = 1e6\nunit_weight = 2.0'),
-                '[[supports]]\nname = "a"\npoint = [-10, -10]\nfix = ["x", "y"]\n',
-                '[[supports]]\nname = "b"\npoint = [10, -10]\nfix = ["y"]\n',
+                text.held_point("a", [-10, -10]),
+                text.held_point("b", [10, -10], "y"),
             ],
         )
 

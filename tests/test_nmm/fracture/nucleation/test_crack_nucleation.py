@@ -14,7 +14,8 @@ from nmm.scene.read import parse_scene
 from nmm.stepping.prepare import prepare
 from nmm.stepping.run import Run
 from nmm.testing.resumed.stopping import check_resumed, stopped_after
-from nmm.testing.scenes import edge_support, turned_net
+from nmm.testing.scenes import turned_net
+from nmm.verification import text
 from nmm.verification.problems.cracks.nucleation import led
 
 from .nucleating_scenes import body, plate
@@ -216,7 +217,7 @@ def cautions(nucleation: str, size: float) -> str:
 
 
 def test_a_crack_begins_in_time_and_takes_what_its_faces_give() -> None:
-    ends = [edge_support("left", (0, 0.5), (0, 0), ("x",))]
+    ends = [text.held_edge("left", ((0, 0.5), (0, 0)), "x")]
     pull = '[[loads]]\nname = "pull"\nkind = "edge"\nsegment = [[2, 0], [2, 0.5]]\n'
     pull += "traction = [0.033, 0]\nhistory = [[0, 0], [10, 1]]\n"
     pin = '[[supports]]\nname = "pin"\npoint = [0, 0]\nfix = ["y"]\n'

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import nmm
-from nmm.testing.scenes import edge_support
+from nmm.verification import text
 
 E, NU, ETA, WEIGHT, HEIGHT, LASTS = 1e9, 0.25, 1e10, 2e4, 4.0, 100.0
 
@@ -24,9 +24,9 @@ def ground(inertia):
         name = "column"
         material = "salt"
         vertices = [[0, 0], [1, 0], [1, {HEIGHT}], [0, {HEIGHT}]]
-        {edge_support("left", (0, 0), (0, HEIGHT), ("x",))}
-        {edge_support("right", (1, 0), (1, HEIGHT), ("x",))}
-        {edge_support("foot", (0, 0), (1, 0), ("y",))}
+        {text.held_edge("left", ((0, 0), (0, HEIGHT)), "x")}
+        {text.held_edge("right", ((1, 0), (1, HEIGHT)), "x")}
+        {text.held_edge("foot", ((0, 0), (1, 0)), "y")}
         [gravity]
         acceleration = [0, -10]
         {inertia}

@@ -7,7 +7,7 @@ import pytest
 
 import nmm
 from nmm.verification import text
-from nmm.verification.problems.matter.tunnel import RIM, SIDES, pull, quarter, roller
+from nmm.verification.problems.matter.tunnel import RIM, SIDES, quarter
 
 PRESSURE, SHEAR, POISSON, COHESION = 30.0, 2800.0, 0.45, 3.45
 
@@ -38,7 +38,7 @@ def scene():
         out = (start + end) / np.linalg.norm(start + end)
         rim = [tuple(RIM * start), tuple(RIM * end)]
         edges += [
-            pull(f"rim {number}", rim, -PRESSURE * out),
+            text.pulled_edge(f"rim {number}", rim, -PRESSURE * out),
             f'[[foundations]]\nname = "beyond {number}"\n'
             f"segment = {[list(map(float, one)) for one in rim]}\n"
             f"normal_stiffness = {2 * SHEAR / RIM!r}\n",
@@ -55,8 +55,8 @@ def scene():
             '[interfaces.glue]\nbetween = "any"\nfriction_angle = 0.5\nbonded = true\n',
             f'[[initial_stresses]]\nblock = "ring"\nacross = {-PRESSURE}\n{stress}',
             f'[[initial_stresses]]\nblock = "core"\n{stress}',
-            roller("x", [(0, 0), (0, RIM)], "x"),
-            roller("y", [(0, 0), (RIM, 0)], "y"),
+            text.held_edge("x", [(0, 0), (0, RIM)], "x"),
+            text.held_edge("y", [(0, 0), (RIM, 0)], "y"),
             *edges,
             text.monitor("wall", (1.0, 0.0), "ring"),
             '[[stages]]\nname = "in place"\n',

@@ -2,6 +2,8 @@
 
 from collections.abc import Sequence
 
+from nmm.verification import text
+
 HEAD = """plane = "strain"
 [materials.m]
 young_modulus = 1e9
@@ -31,7 +33,7 @@ def held_edge(segment: Sequence[Sequence[float]], block: str) -> str:
 
 def pulled_edge(segment: Sequence[Sequence[float]], traction: Sequence[float]) -> str:
     """Return a traction (Pa) along an edge."""
-    return f'[[loads]]\nname = "pull"\nkind = "edge"\nsegment = {segment}\ntraction = {traction}\n'
+    return text.pulled_edge("pull", segment, traction)
 
 
 def monitor(name: str, point: Sequence[float], block: str) -> str:
