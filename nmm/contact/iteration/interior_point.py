@@ -38,7 +38,8 @@ class Settling:
     """Tells when hardly a contact changes its state any more from point to point of a path.
 
     Newton's method on springs from there mostly ends it. Where it does not, the next try waits
-    until a quarter as many contacts change.
+    until a quarter as many contacts change, and others than then: from the states that it was tried
+    from it only does the same again.
 
     Parameters
     ----------
@@ -47,16 +48,17 @@ class Settling:
     """
 
     def __init__(self, share: float) -> None:
-        self._share, self._last = share, np.zeros(0, dtype=bool)
+        self._share = share
+        self._last = self._tried = np.zeros(0, dtype=bool)
 
     def seen(self, sides: Complementarity, point: InteriorIterate) -> bool:
         """Whether so few have changed since the point before."""
         now = np.concatenate(sides.springs.states(point.increment))
         changed = int((now != self._last).sum()) if len(self._last) else len(now)
         self._last = now
-        if changed > self._share * len(now):
+        if changed > self._share * len(now) or np.array_equal(now, self._tried):
             return False
-        self._share = 0.25 * changed / len(now)
+        self._share, self._tried = 0.25 * changed / len(now), now
         return True
 
 
