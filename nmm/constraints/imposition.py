@@ -6,7 +6,7 @@ as ``module:Name``.
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
@@ -178,10 +178,6 @@ class Method:
         area = place.weight * model.thickness
         interface = Interface(place, None, area, "edge", np.array(held), displacement)
         return self.impose(model, [interface])[0]
-
-    def at_points(self) -> "Method":
-        """Return the imposition at points that are no edge: springs, which need no traction."""
-        return replace(self, kind="penalty")
 
 
 def support_method(part: "SupportMethod", size: float | None, degree: int) -> Method:

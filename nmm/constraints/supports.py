@@ -67,7 +67,8 @@ class Supports(TiedInterfaces):
         method = support_method(part, size, cover.highest_degree)
         interfaces = [_interface(setup, support, method) for support in scene.supports]
         edges = [i for i, one in enumerate(interfaces) if one.first.normal is not None]
-        found = method.at_points().impose(setup.model, interfaces)
+        # At points that are no edge springs, which need no traction.
+        found = replace(method, kind="penalty").impose(setup.model, interfaces)
         along = method.impose(setup.model, [interfaces[i] for i in edges])
         for i, support in zip(edges, along, strict=True):
             found[i] = support

@@ -90,7 +90,7 @@ def _sides(well: Potential) -> Complementarity:
     problem = well.shifted
     springs = CutSprings.of(problem)
     compliance = np.where(well.spring, 1 / springs.stiffness, compliances(problem))
-    return Complementarity.of(springs, ~well.spring, compliance)
+    return Complementarity(springs, ~well.spring, compliance)
 
 
 def _free(newton: Newton, point: InteriorIterate) -> Start:

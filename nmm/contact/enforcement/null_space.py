@@ -79,7 +79,9 @@ class NullSpace(Transform):
         )
         for part in (normal, tangent):
             part.sort_indices()
-        moved = problem.matrix @ start
+        moved, among = problem.matrix @ start, problem.among
+        if among is not None:
+            among = magnitudes(basis).T @ (among + np.abs(moved))
         return replace(
             problem,
             matrix=matrix,
@@ -89,7 +91,7 @@ class NullSpace(Transform):
             gap=problem.gap + problem.normal_rows @ start,
             slip=problem.slip + problem.tangent_rows @ start,
             start=None if problem.start is None else self.of_unknowns(problem.start),
-            among=None if problem.among is None else self._sizes(problem.among + np.abs(moved)),
+            among=among,
         )
 
     def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
@@ -103,10 +105,6 @@ class NullSpace(Transform):
     def of_unknowns(self, values: Any) -> Any:
         """Return those (n - r,) of the unknowns that are not given."""
         return np.delete(values, self.given)
-
-    def _sizes(self, among: Floats) -> Floats:
-        """Sizes (n - r,) of what forces of so much on all unknowns (n,) may come to."""
-        return np.asarray(magnitudes(self.basis).T @ among)
 
     def _multipliers(self, rest: Floats) -> Floats:
         """Multipliers (k,) with ``rows.T @ m = rest`` (n,), what is left of the balance."""

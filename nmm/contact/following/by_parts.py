@@ -54,7 +54,7 @@ def _by_parts(
     at, gone, part, iterations = begin, 0.0, FIRST_PART, lost.iterations
     for _ in range(WAYPOINTS):
         ahead = min(gone + part, 1.0)
-        short = problem.short_of((1 - ahead) * begin.rest)
+        short = replace(problem, force=problem.force - (1 - ahead) * begin.rest)
         guess = short.at(path, at.increment, at.change)
         found = newton(short, replace(path, target=ahead * path.target), solver, guess)
         iterations += found.iterations

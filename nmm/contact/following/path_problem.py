@@ -140,7 +140,3 @@ class PathProblem:
             for one in (0, 1)
         ]
         return csc_array(matrix + vstack([normal, tangent]).T @ vstack(parts))
-
-    def short_of(self, force: Floats) -> "PathProblem":
-        """Return the problem without a part of its force (n,)."""
-        return replace(self, force=self.force - force)

@@ -55,18 +55,6 @@ class Islands:
         """Whether there is anything to be solved apart."""
         return int((~self.held).sum()) > 1
 
-    def balance(
-        self, springs: CutSprings, increment: Floats, force: Floats
-    ) -> tuple[Floats, Floats]:
-        """(I,) out-of-balance ``force`` (n,) of each island, and the largest of its own parts.
-
-        These are no less than what counts in the whole (`StepProblem.least`).
-
-        See `nmm.contact.problem.residual_kernel.residual`, which says the same of the whole.
-        """
-        found = balances(increment, force, self.unknown, self.count, springs.columns)
-        return np.asarray(found[0]), np.asarray(found[1])
-
     def around(self, problem: StepProblem, chosen: Bools) -> tuple[Ints, Ints]:
         """Unknowns of ``chosen`` islands (I,) and of held bodies they touch, and their contacts."""
         within, contacts = chosen[self.unknown], np.flatnonzero(chosen[self.contact])
@@ -81,7 +69,11 @@ class Islands:
 def balances(
     increment: Floats, force: Floats, island: Ints, islands: int, springs: SpringColumns
 ) -> tuple[Floats, Floats]:
-    """See `Islands.balance`."""
+    """(I,) out-of-balance ``force`` (n,) of each island, and the largest of its own parts.
+
+    These are no less than what counts in the whole (`StepProblem.least`). See
+    `nmm.contact.problem.residual_kernel.residual`, which says the same of the whole.
+    """
     load, weight = springs.load, springs.weight
     pointers, indices, entries = springs.matrix
     rest, largest = np.zeros(islands), np.empty((3, islands))

@@ -13,7 +13,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats
 from nmm.contact.islands.part import part_of
-from nmm.contact.islands.partition import Islands
+from nmm.contact.islands.partition import Islands, balances
 from nmm.contact.iteration.options.budgets import SMALL
 from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
@@ -46,7 +46,8 @@ def solve_apart(
     solves, factors, woken = 0.0, 0, np.zeros(islands.count, dtype=bool)
     scale = np.zeros(islands.count)
     for _ in range(options.rounds):
-        rest, largest = islands.balance(springs, at, springs.residual(at).force)
+        force = springs.residual(at).force
+        rest, largest = balances(at, force, islands.unknown, islands.count, springs.columns)
         # What was solved with others is judged beside them.
         scale = np.maximum(scale, largest)
         busy = rest > tolerance * scale

@@ -57,24 +57,21 @@ class Complementarity:
     compliance
         (2, m) normal and tangential compliance ``c`` (m/N) of what each exact contact joins, and
         of the other springs: by it forces and lengths compare.
-    active
-        (3, m) sides that exist: what has no tension limit cannot open, what has no bound or no
-        shear force at all does not slide.
     """
 
     springs: CutSprings
     exact: Bools
     compliance: Floats
-    active: Bools
 
-    @classmethod
-    def of(cls, springs: CutSprings, exact: Bools, compliance: Floats) -> "Complementarity":
-        """Sides of the contacts of ``springs``."""
-        limits = springs.problem.limits
-        bounded = np.isfinite(limits.cohesion) & ~frictionless(limits)
-        return cls(
-            springs, exact, compliance, np.stack([np.isfinite(limits.tension), bounded, bounded])
-        )
+    @cached_property
+    def active(self) -> Bools:
+        """(3, m) sides that exist.
+
+        What has no tension limit cannot open, what has no bound or no shear force does not slide.
+        """
+        limits = self.springs.problem.limits
+        bounded = np.isfinite(limits.cohesion) & ~self.smooth
+        return np.stack([np.isfinite(limits.tension), bounded, bounded])
 
     @cached_property
     def smooth(self) -> Bools:

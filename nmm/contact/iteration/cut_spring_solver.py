@@ -135,7 +135,7 @@ class _WaysToForces:
         """Best of the interior point; at each of the ``goals`` alternation may spend ``rest``."""
         springs, tools, best = self.springs, self.tools, found
         exact = np.zeros(springs.problem.n_contacts, dtype=bool)
-        sides = Complementarity.of(springs, exact, 1 / springs.stiffness)
+        sides = Complementarity(springs, exact, 1 / springs.stiffness)
         start = inside_start(sides, tools)
         for balance in goals:
             method = InteriorPoint(sides, tools)

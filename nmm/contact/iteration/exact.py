@@ -84,7 +84,7 @@ def _interior_round(
     """
     rounds, compliance = tools.options.rounds, compliances(problem)
     springs = stiff_springs(problem, rounds.slight)
-    sides = Complementarity.of(springs, ~problem.own_stiffness, compliance)
+    sides = Complementarity(springs, ~problem.own_stiffness, compliance)
     start, before = inside_start(sides, tools), at or first_round(springs)
     found = InteriorPoint(sides, tools).run(start, budget, goal).at_cost_of(before.result)
     forces = found.springs.forces(found.increment)

@@ -80,7 +80,7 @@ class HistoryIteration:
             return None
         share = self.before.open_share
         index = np.flatnonzero(self.start.bonded & (share < 1 - 1e-9))
-        return AsymmetricSprings.of(index, share[index]) if len(index) else None
+        return AsymmetricSprings(index, share[index]) if len(index) else None
 
     def settled(self, answer: StepAnswer, sliding: Floats) -> Verdict | None:
         """Register a solution; return a verdict where the iteration has failed."""

@@ -7,7 +7,7 @@ to guess which of the two it is. The shear force stays with the first, whose fri
 """
 
 from dataclasses import dataclass, replace
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_array, vstack
@@ -37,14 +37,10 @@ class AsymmetricSprings(Transform):
     index: Ints
     share: Floats
 
-    @classmethod
-    def of(cls, index: Ints, share: Floats) -> Self:
-        """Return the contacts, with a trace of stiffness where none is left."""
-        return cls(index, np.maximum(share, TRACE))
-
     def apply(self, problem: StepProblem) -> StepProblem:
         """Return the problem with the second contacts added at its end."""
-        at, share, none = self.index, self.share, np.zeros(len(self.index))
+        at, none = self.index, np.zeros(len(self.index))
+        share = np.maximum(self.share, TRACE)
         whole, pressed = problem.normal_stiffness[at], problem.normal_force[at] < 0
         force = np.where(pressed, problem.normal_force[at], 0.0)
         first, friction, left = (

@@ -9,7 +9,6 @@ from integration.contraction import contract
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.contact.detection.surface import Surface
-from nmm.contact.mortar.face_means import FaceMeans
 from nmm.contact.mortar.trace_space import TraceSpace
 from nmm.contact.points.bent_faces import bent_normals
 from nmm.contact.points.between_faces import JointFaces
@@ -124,9 +123,3 @@ class ContactGeometry:
         if self.bends:
             return self.measured(with_parts(points, normal=normal), after).gap
         return np.asarray(contract("mi,mi->m", apart_on(surface, points), normal))
-
-    def face_means(self, contacts: ContactPoints, surface: Surface) -> FaceMeans | None:
-        """Return the averages over faces in which exact constraints hold; None without them."""
-        return (
-            None if self.trace_space is None else FaceMeans.of(contacts, surface, self.trace_space)
-        )

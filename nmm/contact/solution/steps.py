@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from nmm.assembly.state import State
 from nmm.contact.detection.surface import Surface
 from nmm.contact.laws.contact_laws import ContactLaws
+from nmm.contact.mortar.face_means import FaceMeans
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.half_way.mean_motion import Forces
 from nmm.contact.problem.transform import Transform
@@ -55,13 +56,13 @@ class ContactSteps:
             rows = self.geometry.rows(contacts, state, midpoint, forces)
         else:
             rows = self.geometry.conserving(contacts, state, end)
-        surface = self.surface(state)
+        surface, space = self.surface(state), self.geometry.trace_space
         mixed, posed = self.bonds.posed(contacts, rows, request, state)
 
         def besides(present: ContactPoints) -> list[Transform]:
             tied = self.bonds.tied(present, state, rows, request.weight, request.time)
             free = present if tied is None else present.take(~present.tied)
-            means = self.geometry.face_means(free, surface)
+            means = None if space is None else FaceMeans.of(free, surface, space)
             return [part for part in (tied, means, request.null_space) if part is not None]
 
         solved = self.solver.solve(*posed, besides)

@@ -95,7 +95,7 @@ def test_the_interior_point_has_the_bound_of_the_law() -> None:
     m = problem.n_contacts
     limits = Limits(np.zeros(m), np.full(m, 2.0), np.full(m, 0.5))
     springs = CutSprings.of(replace(problem, limits=limits))
-    sides = Complementarity.of(springs, np.ones(m, dtype=bool), np.ones((2, m)))
+    sides = Complementarity(springs, np.ones(m, dtype=bool), np.ones((2, m)))
     pressed = sides.bound(np.full(m, -3.0), np.full(m, 3.0), np.zeros(m))
     np.testing.assert_array_equal(pressed, 2.0 + 0.5 * 3.0)
     parting = sides.bound(np.full(m, -3.0), np.zeros(m), np.full(m, 3.0))

@@ -166,7 +166,7 @@ def test_a_bond_that_is_spent_rubs_under_its_whole_pressure():
             shear_force=0 * one,
             compliant=np.ones(1, dtype=bool),
         )
-        answer = solved(problem, AsymmetricSprings.of(np.array([0]), np.zeros(1)))
+        answer = solved(problem, AsymmetricSprings(np.array([0]), np.zeros(1)))
         pressure = 3 * SPRING / (SPRING + 0.1)
         assert answer.normal_force[0] == pytest.approx(-pressure, rel=1e-9)
         stuck, limit = pull * SPRING / (SPRING + 0.1), 0.5 * pressure
