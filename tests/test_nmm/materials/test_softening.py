@@ -11,6 +11,7 @@ from nmm.materials.drucker_prager import DruckerPragerPlasticity
 from nmm.materials.mohr_coulomb import MohrCoulombPlasticity
 from nmm.materials.von_mises import VonMisesPlasticity
 from nmm.testing import check_law
+from nmm.verification.problems.matter.softening_layer import sheared_layer
 
 E, NU, YIELD, ENERGY = 1e9, 0.25, 1e6, 2e3
 SHEAR = E / 2 / (1 + NU)
@@ -51,10 +52,6 @@ SHEARED = {
 
 def sheared(size, law="von_mises", cover="quads", degree=0, way=0.0042):
     """A layer whose top is pushed aside by a way (m); weight aside loads its foot a little more."""
-    walls = "".join(
-        f'[[supports]]\nname = "{name}"\nsegment = [[{x}, 0], [{x}, {HEIGHT}]]\nfix = ["y"]\n'
-        for name, x in (("left", 0), ("right", WIDTH))
-    )
     return nmm.parse_scene(
         f"""plane = "strain"
         [materials.clay]
@@ -63,29 +60,6 @@ def sheared(size, law="von_mises", cover="quads", degree=0, way=0.0042):
         poisson_ratio = {NU}
         {SHEARED[law][1]}
         softening_energy = {ENERGY}
-        [[blocks]]
-        name = "layer"
-        material = "clay"
-        vertices = [[0, 0], [{WIDTH}, 0], [{WIDTH}, {HEIGHT}], [0, {HEIGHT}]]
-        {walls}
-        [[supports]]
-        name = "foot"
-        segment = [[0, 0], [{WIDTH}, 0]]
-        fix = ["x", "y"]
-        [[supports]]
-        name = "top"
-        segment = [[0, {HEIGHT}], [{WIDTH}, {HEIGHT}]]
-        fix = ["x", "y"]
-        displacement = [{way}, 0]
-        [[loads]]
-        name = "more"
-        kind = "body"
-        density = [{PUSH}, 0]
-        [loading]
-        scaled = ["top"]
-        until = 1.0
-        [formulation.loading]
-        increment = 0.01
         [formulation.cover]
         type = "{cover}"
         size = {size}
@@ -93,6 +67,7 @@ def sheared(size, law="von_mises", cover="quads", degree=0, way=0.0042):
         [formulation.supports]
         method = "lagrange"
         """
+        + "".join(sheared_layer("clay", (WIDTH, HEIGHT), way, PUSH, 0.01))
     )
 
 

@@ -59,6 +59,15 @@ def test_a_published_folder_is_reproduced(folder):
     assert "1 run, all within tolerance" in result.stdout
 
 
+def test_a_quantity_that_no_run_has_is_refused_before_the_run(tmp_path, bar_text, monkeypatch):
+    monkeypatch.setattr("nmm.verification.published.run", lambda *_: pytest.fail("it was run"))
+    (tmp_path / "bar.toml").write_text(bar_text())
+    words = ("--quantity", "enrgy", "--out", tmp_path / "case")
+    result = call("publish", tmp_path / "bar.toml", *words)
+    assert result.exit_code == 1
+    assert '"energy"' in result.output.replace("'", '"')
+
+
 def test_a_value_that_is_missed_gives_exit_code_1(folder):
     path = folder / "expected.toml"
     value = tomllib.loads(path.read_text())["values"][0]["value"]

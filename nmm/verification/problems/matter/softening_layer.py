@@ -24,6 +24,26 @@ PEAK, LAST, PRESSURE, PUSH = np.pi / 6, np.pi / 12, 1e6, 5e4
 HEIGHT, WIDTH, WAY = 1.0, 0.25, 6e-3
 
 
+def sheared_layer(
+    material: str, size: text.Corner, way: float, push: float, increment: float
+) -> list[str]:
+    """Tables of a layer on its foot whose top is pushed aside by ``way`` (m), sides along x alone.
+
+    Weight aside, ``push`` (N/m3), loads its foot a little more, so that it softens there.
+    """
+    width, height = size
+    return [
+        text.box("layer", (0, 0), size, material),
+        text.held_edge("left", [(0, 0), (0, height)], "y"),
+        text.held_edge("right", [(width, 0), (width, height)], "y"),
+        text.held_edge("foot", [(0, 0), (width, 0)]),
+        text.held_edge("top", [(0, height), (width, height)]) + f"displacement = [{way}, 0]\n",
+        f'[[loads]]\nname = "more"\nkind = "body"\ndensity = [{push}, 0]\n',
+        f'[loading]\nscaled = ["top"]\nuntil = 1.0\n[formulation.loading]\n'
+        f"increment = {increment}\n",
+    ]
+
+
 @dataclass(frozen=True)
 class SofteningLayer(SceneCase):
     """One row of cells at the foot softens, and what it takes for its area is that of any row.
@@ -48,7 +68,7 @@ class SofteningLayer(SceneCase):
 
     def scene(self) -> str:
         """Return a layer whose top is pushed aside; weight aside loads its foot a little more."""
-        sides = {"left": 0.0, "right": WIDTH}
+        sides = (("left", 0.0, 1), ("right", WIDTH, -1))
         return text.scene(
             'title = "Softening layer"\nplane = "strain"\n',
             [
@@ -56,20 +76,13 @@ class SofteningLayer(SceneCase):
                 f"poisson_ratio = {POISSON}\ncohesion = {COHESION}\nfriction_angle = {PEAK!r}\n"
                 f"softening_energy = {ENERGY}\nresidual_cohesion = {LEFT}\n"
                 f"residual_friction_angle = {LAST!r}\n",
-                text.box("layer", (0, 0), (WIDTH, HEIGHT), "ground"),
-                *(text.held_edge(name, [(x, 0), (x, HEIGHT)], "y") for name, x in sides.items()),
+                *sheared_layer("ground", (WIDTH, HEIGHT), WAY, PUSH, 0.01),
                 *(
                     text.pulled_edge(f"press {name}", [(x, 0), (x, HEIGHT)], (PRESSURE * sign, 0))
-                    for (name, x), sign in zip(sides.items(), (1, -1), strict=True)
+                    for name, x, sign in sides
                 ),
-                text.held_edge("foot", [(0, 0), (WIDTH, 0)]),
-                text.held_edge("top", [(0, HEIGHT), (WIDTH, HEIGHT)])
-                + f"displacement = [{WAY}, 0]\n",
-                f'[[loads]]\nname = "more"\nkind = "body"\ndensity = [{PUSH}, 0]\n',
                 f'[[initial_stresses]]\nblock = "layer"\nstress = [{-PRESSURE}, {-PRESSURE}, 0]\n'
                 f"across = {-PRESSURE}\n",
-                '[loading]\nscaled = ["top"]\nuntil = 1.0\n',
-                "[formulation.loading]\nincrement = 0.01\n",
                 '[formulation.supports]\nmethod = "lagrange"\n',
             ],
         )

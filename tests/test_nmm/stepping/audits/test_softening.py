@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import nmm
+from nmm.verification.problems.matter.softening_layer import sheared_layer
 
 SCENE = """plane = "strain"
 [materials.clay]
@@ -12,42 +13,12 @@ young_modulus = 1e9
 poisson_ratio = 0.25
 {strength}
 softening_energy = 2e3
-[[blocks]]
-name = "layer"
-material = "clay"
-vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
-[[supports]]
-name = "left"
-segment = [[0, 0], [0, 1]]
-fix = ["y"]
-[[supports]]
-name = "right"
-segment = [[1, 0], [1, 1]]
-fix = ["y"]
-[[supports]]
-name = "foot"
-segment = [[0, 0], [1, 0]]
-fix = ["x", "y"]
-[[supports]]
-name = "top"
-segment = [[0, 1], [1, 1]]
-fix = ["x", "y"]
-displacement = [0.003, 0]
-[[loads]]
-name = "more"
-kind = "body"
-density = [5e4, 0]
-[loading]
-scaled = ["top"]
-until = 1.0
-[formulation.loading]
-increment = 0.05
 [formulation.cover]
 type = "{cover}"
 size = 0.125
 degree = 1
 angle = "{angle} deg"
-"""
+""" + "".join(sheared_layer("clay", (1.0, 1.0), 0.003, 5e4, 0.05))
 LAWS = {
     "von_mises": "yield_stress = 1e6",
     "mohr_coulomb": "cohesion = 5.5e5\nfriction_angle = 0.2",
