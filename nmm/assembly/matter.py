@@ -12,7 +12,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from covers.approximation.manifold import Manifold
-from integration.arrays import Floats, Ints
+from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.kept import KeptOfArray
 from nmm.assembly.stress_points import StressPoints, nearest
 from nmm.errors import FormulationError
@@ -195,6 +195,20 @@ class Matter:
         if not all(law.rests for law in self.laws):
             return None
         return Response(history[STRESS], self.elastic, history)
+
+    def at_once(self, strain: Floats, history: History, among: Bools) -> Floats:
+        """Return the stress (Q, 3) at a strain (Q, 3) without time, of the points ``among`` (Q,).
+
+        nan elsewhere, and of laws that a step without strain leaves as they are.
+        """
+        found = np.full(strain.shape, np.nan)
+        for law, at in self._points:
+            here = np.arange(len(strain))[at]
+            here = here[among[here]]
+            if len(here) and not law.rests:
+                own = self._own(law, history, here)
+                found[here] = law.update(strain[here], own, self.plane, 0.0).stress
+        return found
 
     def internal(self, deformation: Floats, history: History) -> Floats:
         """Return the internal force (n,) of an accepted state."""

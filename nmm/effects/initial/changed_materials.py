@@ -84,8 +84,11 @@ class ChangedMaterials(Effect):
         there = np.isin(region[points.rule.owner], changed)
         was = _former(old, new, points, before, after)
         now = _answer(old, new, points, after, was)
+        beside, kept = _initial(new, points), tau + was
         tau[there] += (was - now)[there]
-        return KeptStress(points, tau, _initial(new, points))
+        alike = there & _alike(old, new)[region[points.rule.owner]]
+        tau += _missing(new, points, after, alike, kept + beside, tau + beside)
+        return KeptStress(points, tau, beside)
 
     def _at(self, old: Model, new: Model, points: StressPoints) -> Floats:
         """Stress differences (Q, 3) so far at points of the new model; zero without any."""
@@ -175,6 +178,27 @@ def _answer(old: Setup, new: Setup, points: StressPoints, after: State, was: Flo
     elastic = np.linalg.solve(_by_region(old, region), was[:, :, None])[:, :, 0]
     strain = np.where(_alike(old, new)[region, None], elastic, points.strain(after.deformation))
     return np.asarray((_by_region(new, region) @ strain[:, :, None])[:, :, 0])
+
+
+def _missing(
+    new: Setup, points: StressPoints, after: State, alike: Bools, kept: Floats, beside: Floats
+) -> Floats:
+    """Stress (Q, 3) that creeping laws lack to the ``kept`` one with what acts ``beside`` them.
+
+    They remember stress itself, and more than elastic strain: it is what they answer that counts.
+    """
+    matter, lacking = new.model.matter, np.zeros((len(points), 3))
+    if not isinstance(matter, Matter):
+        return lacking
+    place = _places_of(points, matter.points)
+    here = np.flatnonzero(alike & (place >= 0))
+    strain, among = np.zeros((len(matter.points), 3)), np.zeros(len(matter.points), dtype=bool)
+    shift = np.linalg.solve(matter.elastic[place[here]], beside[here][:, :, None])[:, :, 0]
+    strain[place[here]] = points.strain(after.deformation)[here] + shift
+    among[place[here]] = True
+    found = matter.at_once(strain, after.history, among)[place[here]]
+    lacking[here] = np.where(np.isnan(found), 0.0, kept[here] - found)
+    return lacking
 
 
 def _by_region(setup: Setup, region: Ints) -> Floats:
