@@ -1,46 +1,68 @@
-"""Whether all bodies together are in balance at the end of a path: by forces, not by equations."""
+"""Whether forces balance where a static run ends: asked of places and forces, not of equations."""
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csr_array
 
 from integration.arrays import Floats
+from nmm.assembly.motion import coordinate_rounding
 from nmm.effects.base import Instant
+from nmm.solvers.known import gross
 from nmm.solvers.unchecked import magnitudes
 from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings, percent
 
+# A body counts as if it bore at least this share of what the one that bears most does.
+LIGHT = 1e-3
+
 
 def balance(run: EndedRun) -> Findings:
-    """Audit the sum of loads and reactions where a path ends; contact comes in pairs.
+    """Audit force and moment on every body where statics with contact ends, as it stands then.
 
-    It is set beside the sizes of the forces at all unknowns, not beside a sum: loads that pull a
-    body apart have none, and reactions to nothing are rounding. Multipliers that hold
-    supports are in no force, so that such runs are not audited.
+    They are set beside the sizes of the forces at all unknowns, not beside a sum: loads that pull a
+    body apart have none, and reactions to nothing are rounding. Where paths end bonds may have
+    given way for the next step: there all bodies count together, as contact comes in pairs.
+    Multipliers that hold supports are in no force, so that bodies that they hold are not audited.
     """
-    loading, plan, state = run.scene.loading, run.stepper.plan, run.state
-    if loading is None or loading.control is None:
+    loading, plan, model = run.scene.loading, run.stepper.plan, run.stepper.model
+    followed = loading is not None and loading.control is not None
+    if run.dynamic or (plan.contact is None and not followed):
         return
-    now, model = Instant.of(state), run.stepper.model
-    if plan.border(state, now) is not None:
+    left, size = _left(run, with_contact=not followed)
+    border = plan.border(run.state, Instant.of(run.state))
+    if border is not None:
+        left[model.manifold.unknown_body[csr_array(border[0]).indices]] = 0.0
+    if followed:
+        if border is not None:
+            return
+        left, size = left[:, :2].sum(axis=0, keepdims=True), size.max(keepdims=True)
+    rounded = gross(plan.matrix(run.state, model.stiffness), coordinate_rounding(model.manifold))
+    if not size.max() > rounded:
         return
-    modes, turn = model.manifold.rigid_modes, state.frames.rotation
-    sizes = magnitudes(modes)
-    total, largest = np.zeros(2), 0.0
-    for (_, effect), force in zip(plan.named("force"), plan.forces(state, now), strict=True):
-        total += np.einsum("bij,bj->i", turn, _of_bodies(modes, force))
-        if effect.external:
-            largest = max(largest, float(np.hypot(*_of_bodies(sizes, np.abs(force)).sum(0))))
-    if not largest:
-        return
-    missed = float(np.hypot(*total)) / largest
+    off = np.sqrt(np.square(left).sum(axis=1)) / np.maximum(size, LIGHT * size.max())
+    at = int(np.argmax(off))
+    x, y = run.state.frames.centre[at]
+    where = "the bodies together" if followed else f"the body about ({x:.6g}, {y:.6g})"
     yield AuditFinding(
         "force_balance",
-        missed,
-        f"loads and reactions at the end of the path differ by {percent(missed)} of the largest",
-        "the last step of the path is no equilibrium: take smaller steps of [loading.control]",
+        float(off[at]),
+        f"forces on {where} are out of balance by {percent(off[at])} of their size where the run "
+        "ends",
+        "take smaller increments or steps of the load, and compare",
     )
 
 
-def _of_bodies(modes: csc_array, force: Floats) -> Floats:
-    """Return the force (B, 2) of unknowns on each body."""
-    forces: Floats = (modes.T @ force).reshape(-1, 3)[:, :2]
-    return forces
+def _left(run: EndedRun, with_contact: bool) -> tuple[Floats, Floats]:
+    """Return force, and moment over width, left on bodies (B, 3), and sizes (B,) of all forces (N).
+
+    Of bodies that bend by any angle turns are no sum of unknowns: their moments do not count.
+    """
+    plan, state, model = run.stepper.plan, run.state, run.stepper.model
+    modes, turn = model.manifold.rigid_modes, state.frames.rotation
+    forces = list(plan.forces(state, Instant.of(state)))
+    if with_contact and plan.contact is not None:
+        forces.append(-plan.contact.push(state))
+    nothing = np.zeros(len(state.deformation))
+    left = (modes.T @ sum(forces, start=nothing)).reshape(-1, 3)
+    size = (magnitudes(modes).T @ sum(map(np.abs, forces), start=nothing)).reshape(-1, 3)
+    left[:, :2] = np.einsum("bij,bj->bi", turn, left[:, :2])
+    left[:, 2] /= np.inf if run.stepper.kinematics.finite else np.sqrt(model.manifold.body_area)
+    return left, np.asarray(np.hypot(size[:, 0], size[:, 1]))

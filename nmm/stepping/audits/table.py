@@ -69,10 +69,12 @@ THRESHOLDS: dict[str, Threshold] = {
         "largest out-of-balance force of an accepted step, over the load", 1e-6, 1e-3, "all"
     ),
     "force_balance": Threshold(
-        "sum of loads and reactions where a path ends, over the sizes of the largest of them",
-        1e-5,
-        1e-2,
-        "`[loading.control]`, without supports by multipliers",
+        "force and moment (over width) left on a body where the run ends, over the size of all "
+        "forces on it, or 1e-3 of the largest size",
+        1e-6,
+        1e-3,
+        "statics with contact, of bodies that no multipliers hold; `[loading.control]`, of "
+        "all bodies together",
     ),
     "field_imbalance": Threshold(
         "heat or water that was taken up and is not stored, over all that came and went",

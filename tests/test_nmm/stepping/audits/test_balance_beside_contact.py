@@ -1,0 +1,48 @@
+"""Forces on every body where statics with contact ends, asked of what was found."""
+
+from dataclasses import replace
+
+import pytest
+
+import nmm
+from nmm.contact.solution import driver
+from nmm.scene import parse_scene
+from nmm.verification import text
+
+STACK = text.scene(
+    text.weighty(),
+    [
+        text.material("rock"),
+        *text.floor(),
+        text.box("low", (-0.5, 0), (1, 1)),
+        text.box("top", (-0.3, 1), (0.6, 0.6)),
+    ],
+)
+METHODS = ["penalty", "augmented", "lagrange", "cone", "barrier"]
+
+
+@pytest.mark.parametrize("enforcement", METHODS)
+def test_blocks_at_rest_are_in_balance_to_rounding(enforcement: str) -> None:
+    given = f'normal_penalty = 100.0\nenforcement = "{enforcement}"'
+    run = nmm.run(parse_scene(STACK.replace("normal_penalty = 100.0", given)))
+    assert run.summary.status == "converged"
+    # The barrier's iterations end at 1e-8 of the load.
+    assert run.summary.audits["force_balance"] < 1e-7
+
+
+@pytest.mark.parametrize("missed", [1e-5, 1e-2])
+def test_a_solver_that_says_it_has_found_what_it_has_not_is_found_out(monkeypatch, missed) -> None:
+    """Forces of contacts that are said to be larger than they are are no equilibrium."""
+    honest = driver.solve_rebalanced
+
+    def boasting(*given):
+        answer = honest(*given)
+        return replace(answer, normal_force=(1 + missed) * answer.normal_force)
+
+    monkeypatch.setattr(driver, "solve_rebalanced", boasting)
+    run = nmm.run(parse_scene(STACK))
+    assert run.summary.equilibrium_residual < 1e-8
+    # On the upper block, of two forces as large as its weight.
+    assert run.summary.audits["force_balance"] == pytest.approx(missed / 2, rel=0.05)
+    assert any("force_balance" in one for one in run.summary.warnings)
+    assert run.summary.status == ("unbalanced" if missed > 1e-3 else "converged")
