@@ -52,7 +52,7 @@ class Newton:
 
     def __init__(self, well: Potential, tools: Tools, weight: Floats) -> None:
         self.options, self.linear = tools.options.barrier, tools.linear.unsymmetric()
-        self.well, self.pattern = well, tools.pattern_of(well.problem)
+        self.well, self.pattern = well, tools.memory.pattern_of(well.problem)
         springs = stiff_springs(well.problem, 1.0)
         self.weight, self.own = springs.weight, weight
         self.soft = tuple(1 / c for c in compliances(well.problem))

@@ -57,7 +57,7 @@ class Penalty(IterativeEnforcement):
         if self.iteration == "open_close":
             from nmm.contact.enforcement.open_close_passes import OpenClosePasses
 
-            limits, pattern = (self.max_passes, self.tolerance), tools.pattern_of(problem)
+            limits, pattern = (self.max_passes, self.tolerance), tools.memory.pattern_of(problem)
             return OpenClosePasses(*limits, problem, linear_solver, pattern).run()
         from nmm.contact.iteration.answers import spring_answer
         from nmm.contact.problem.cut_springs import CutSprings

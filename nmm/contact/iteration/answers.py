@@ -86,7 +86,7 @@ def _free_part(found: IterationResult, tools: Tools) -> Verdict | None:
     """Verdict "singular" when open-close passes from what was found set a part free."""
     springs, increment = found.springs, found.increment
     problem = springs.problem
-    pattern = tools.pattern_of(problem)
+    pattern = tools.memory.pattern_of(problem)
     for _ in range(PASSES):
         is_open, sliding = springs.states(increment)
         normal = np.where(is_open, 0.0, springs.stiffness[0])

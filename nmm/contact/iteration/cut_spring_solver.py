@@ -154,7 +154,7 @@ class _WaysToForces:
 
     def polished(self, increment: Floats) -> IterationResult:
         """End of Newton's method on the springs that act."""
-        pattern = partial(self.tools.pattern_of, self.springs.problem)
+        pattern = partial(self.tools.memory.pattern_of, self.springs.problem)
         linear, fine = self.tools.linear.unsymmetric(), self.tools.options.springs.fine
         return polish(self.springs, pattern, linear, increment, fine)
 

@@ -75,7 +75,7 @@ class InteriorPoint:
 
     def __init__(self, sides: Complementarity, tools: Tools) -> None:
         self.options, self.linear = tools.options.interior, tools.linear.unsymmetric()
-        self.sides, self.pattern = sides, tools.pattern_of(sides.springs.problem)
+        self.sides, self.pattern = sides, tools.memory.pattern_of(sides.springs.problem)
         self.factorisations = self.solves = 0
         self.reached: InteriorIterate
 

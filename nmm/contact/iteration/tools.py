@@ -5,8 +5,6 @@ from dataclasses import dataclass, replace
 from integration.arrays import Ints
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.options import IterationOptions
-from nmm.contact.problem.matrix_pattern import SpringPattern
-from nmm.contact.problem.step_problem import StepProblem
 from nmm.solvers.linear import LinearSolver
 
 
@@ -31,7 +29,3 @@ class Tools:
     def of_part(self, unknowns: Ints) -> "Tools":
         """Return those of the islands that have these ``unknowns``."""
         return replace(self, memory=self.memory.of_part(unknowns))
-
-    def pattern_of(self, problem: StepProblem) -> SpringPattern:
-        """See `Memory.pattern_of`."""
-        return self.memory.pattern_of(problem)
