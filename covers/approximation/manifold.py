@@ -166,6 +166,10 @@ class Manifold:
         """Unknowns (m, L) and rows (m, 2, 2, L) of ``d u_c / d x_j`` at reference points."""
         return self._stack(elements, points, "gradient_rows")
 
+    def both_rows(self, elements: Ints, points: Floats) -> tuple[Ints, Floats]:
+        """Unknowns (m, L) and rows (m, 3, 2, L) of ``u_c``, ``d u_c / d x``, ``d u_c / d y``."""
+        return self._stack(elements, points, "both_rows")
+
     def _stack(self, elements: Ints, points: Floats, what: str) -> tuple[Ints, Floats]:
         group, index = self._place
         wanted = group[elements]

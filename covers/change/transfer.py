@@ -79,12 +79,12 @@ class Transfer:
     @cached_property
     def old(self) -> Rows:
         """Rows of the old manifold at the points."""
-        return self.kin.old.rows(self.elements[0], self.points)
+        return self._fields[0].rows
 
     @cached_property
     def new(self) -> Rows:
         """Rows of the new manifold at the points."""
-        return self.kin.new.rows(self.elements[1], self.points)
+        return self._fields[1].rows
 
     def rates(self, unknowns: Floats) -> Floats:
         """Return the unknowns (n,) of the new field nearest to the old one in the mean square."""
@@ -124,7 +124,7 @@ class Transfer:
         found, free = self.rates(unknowns), self._free
         if not free.any():
             return found
-        n, old, new = self.kin.new.n_unknowns, self._strain_rows(0), self._strain_rows(1)
+        n, old, new = self.kin.new.n_unknowns, *(field.strains for field in self._fields)
         weighed = self.area[:, None, None] * elasticity[self.elements[0]]
         stress = np.einsum("qij,qjl,ql->qi", weighed, old.values, unknowns[old.unknowns])
         strain = new.matrix(n)
@@ -147,9 +147,12 @@ class Transfer:
         sums = [np.bincount(body, column, minlength=n) for column in flat.T]
         return np.asarray(np.stack(sums, axis=1).reshape(n, *values.shape[1:]), dtype=np.float64)
 
-    @property
-    def _sides(self) -> tuple[Manifold, Manifold]:
-        return self.kin.old, self.kin.new
+    @cached_property
+    def _fields(self) -> "tuple[_Field, _Field]":
+        """Rows of both manifolds at the points: functions and slopes are found together."""
+        sides = zip((self.kin.old, self.kin.new), self.elements, strict=True)
+        old, new = (_Field.of(*manifold.both_rows(at, self.points)) for manifold, at in sides)
+        return old, new
 
     @cached_property
     def _values(self) -> csr_array:
@@ -172,13 +175,30 @@ class Transfer:
         motion = by_body(csr_array(weighed @ modes), weighed @ unknowns)
         return np.asarray((unknowns - modes @ motion)[self._free])
 
-    def _strain_rows(self, side: int) -> "_StrainRows":
-        """Rows of the strains (xx, yy, 2 xy) at the points in the unknowns of one manifold."""
-        index, g = self._sides[side].gradient_rows(self.elements[side], self.points)
-        if not len(g):  # no material in common
-            return _StrainRows(index, np.zeros((0, 3, index.shape[1])))
-        values = np.stack([g[:, 0, 0], g[:, 1, 1], g[:, 0, 1] + g[:, 1, 0]], axis=1)
-        return _StrainRows(index, values)
+
+@dataclass(frozen=True)
+class _Field:
+    """Rows (Q, 3, 2, L) of a field and its slopes along x and y over unknowns (Q, L)."""
+
+    unknowns: Ints
+    values: Floats
+
+    @classmethod
+    def of(cls, unknowns: Ints, values: Floats) -> "_Field":
+        """Return what `Manifold.both_rows` found; without a point it knows no components."""
+        return cls(unknowns, values.reshape(len(unknowns), 3, 2, unknowns.shape[1]))
+
+    @property
+    def rows(self) -> Rows:
+        """Rows of the displacement."""
+        return Rows(self.unknowns, self.values[:, 0])
+
+    @property
+    def strains(self) -> "_StrainRows":
+        """Rows of the strains (xx, yy, 2 xy)."""
+        g = self.values
+        values = np.stack([g[:, 1, 0], g[:, 2, 1], g[:, 2, 0] + g[:, 1, 1]], axis=1)
+        return _StrainRows(self.unknowns, values)
 
 
 @dataclass(frozen=True)

@@ -128,6 +128,16 @@ class ElementGroup(ABC):
         by_direction = self._combine(np.swapaxes(self.gradients(index, points), 1, 2))
         return np.swapaxes(by_direction, 1, 2)
 
+    def both_rows(self, index: Ints, points: Floats) -> Floats:
+        """``T``, ``d T / d x`` and ``d T / d y`` (m, 3, 2 components, L) at reference points."""
+        value, gradient = self.evaluate(index, points)
+        scalars = np.concatenate([value[:, None], np.swapaxes(gradient, 1, 2)], axis=1)
+        return self._combine(scalars)
+
+    def evaluate(self, index: Ints, points: Floats) -> tuple[Floats, Floats]:
+        """``phi_s`` (m, S) and their gradients (m, S, 2) at reference points."""
+        return self.values(index, points), self.gradients(index, points)
+
     def _combine(self, scalars: Floats) -> Floats:
         """Turn scalars (m, r, S) into vector rows (m, r, 2, L)."""
         m, r, n_scalars = scalars.shape

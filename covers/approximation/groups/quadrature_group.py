@@ -83,10 +83,13 @@ class QuadratureGroup(ElementGroup):
         return self.fields.cover
 
     def values(self, index: Ints, points: Floats) -> Floats:
-        return self.fields.evaluate(index, points)[0]
+        return self.evaluate(index, points)[0]
 
     def gradients(self, index: Ints, points: Floats) -> Floats:
-        return self.fields.evaluate(index, points)[1]
+        return self.evaluate(index, points)[1]
+
+    def evaluate(self, index: Ints, points: Floats) -> tuple[Floats, Floats]:
+        return self.fields.evaluate(index, points)
 
     def products(self) -> Floats:
         return self._integrals[0]
