@@ -5,7 +5,7 @@ import tomllib
 import pytest
 
 from nmm.verification.hard.cases.parts import meshes, with_parts
-from nmm.verification.hard.generators.cuts import SIZE, _bar
+from nmm.verification.hard.generators.cracks.cuts import SIZE, _bar
 from nmm.verification.hard.generators.features import FEATURES
 from nmm.verification.hard.oracles.motion import prepared
 

@@ -8,7 +8,7 @@ from nmm.verification.base import Check, Checks, limit
 from nmm.verification.hard.cases.base import Document, HardCase, HardClass
 from nmm.verification.hard.cases.parts import meshes, with_parts
 from nmm.verification.hard.cases.writing import block
-from nmm.verification.hard.generators.cuts import net_point
+from nmm.verification.hard.generators.cracks.cuts import net_point
 from nmm.verification.hard.oracles.motion import Ran, ended, ran
 
 AWAY = (0.0, 1e-14, 1e-12, -1e-10, 1e-8, -1e-6, 1e-4, 1e-2, 0.1)
