@@ -27,6 +27,10 @@ if TYPE_CHECKING:
     from nmm.effects.change import Change
 
 
+BLOCKS = "blocks"
+"""What is taken up, or given away where below zero, with blocks that come and go."""
+
+
 class StressThatTurns(Protocol):
     """The stress of a field in bodies that bend by any angle: it follows the material."""
 
@@ -180,8 +184,23 @@ class FieldEffect(Effect):
         here, start = self.here(change.state.time), new.here(change.state.time)
         spaces = self.space, new.space
         unknowns = carried_field(change.parentage, spaces, here.unknowns, start.unknowns)
-        new.course.go_on_from(FieldAt(here.time, unknowns, here.taken, here.stored))
+        went, taken = self._with_blocks(change, new, unknowns, start.unknowns), here.taken
+        if went:
+            taken = {**taken, BLOCKS: taken.get(BLOCKS, 0.0) + went}
+        new.course.go_on_from(FieldAt(here.time, unknowns, taken, here.stored + went))
         return new
+
+    def _with_blocks(
+        self, change: "Change", new: "FieldEffect", field: Floats, start: Floats
+    ) -> float:
+        """Return what came, or went, with blocks beyond what they hold at the start."""
+        before, after = (one.manifold.element_region for one in (change.old, change.new))
+        if np.array_equal(np.unique(before), np.unique(after)):
+            return 0.0
+        held, holds = self.course.problem.stored, new.course.problem.stored
+        begun = type(self).from_setup(change.before).here(change.before.start.time)
+        had = held(self.here(change.state.time).unknowns) - held(begun.unknowns)
+        return holds(field) - holds(start) - had
 
 
 def course_of(
