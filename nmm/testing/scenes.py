@@ -41,18 +41,8 @@ block = "lower"
 PULLED = "\n" + text.pulled_edge("up", [[0, 0.5], [1, 0.5]], [0, 1.0])
 
 # What pulls a body of 2 m by 2 m apart, above and below the level of the origin, by 1 MPa.
-PULLED_APART = """
-[[loads]]
-name = "up"
-kind = "edge"
-segment = [[0, 1], [2, 1]]
-traction = [0, 1e6]
-[[loads]]
-name = "down"
-kind = "edge"
-segment = [[0, -1], [2, -1]]
-traction = [0, -1e6]
-"""
+PULLED_APART = "\n" + text.pulled_edge("up", [(0, 1), (2, 1)], (0, 1e6))
+PULLED_APART += text.pulled_edge("down", [(0, -1), (2, -1)], (0, -1e6))
 
 
 def notched_plate(fracture: str, pulled: str = PULLED, tip: float = 0.3) -> str:
@@ -149,14 +139,14 @@ def block_on_slab(poisson: float, supports: Sequence[str], inertia: str = "") ->
 
 def roller_and_pin(height: float = 1.0) -> str:
     """Return tables that hold the left end of a bar from the origin: along it, and its corner."""
-    return text.held_edge("left", ((0, 0), (0, height)), "x") + (
-        text.held_point("pin", [0, 0], "y")
-    )
+    left = text.held_edge("left", [(0, 0), (0, height)], "x")
+    return left + text.held_point("pin", (0, 0), "y")
 
 
 def floor_and_pin(width: float = 1.0) -> str:
     """Return tables that hold what stands on the x axis: its foot upright, its corner along it."""
-    return text.held_edge("base", ((0, 0), (width, 0)), "y") + (text.held_point("pin", [0, 0], "x"))
+    base = text.held_edge("base", [(0, 0), (width, 0)], "y")
+    return base + text.held_point("pin", (0, 0), "x")
 
 
 def salt_block(law: str, constants: str, loads: Mapping[str, float], head: str = "") -> str:
