@@ -9,6 +9,7 @@ from nmm.effects.base import Instant
 from nmm.solvers.known import gross
 from nmm.solvers.unchecked import magnitudes
 from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings, percent
+from nmm.stepping.drive.verdict import CONVERGED, FAILURE
 
 # A body counts as if it bore at least this share of what the one that bears most does.
 LIGHT = 1e-3
@@ -21,10 +22,12 @@ def balance(run: EndedRun) -> Findings:
     body apart have none, and reactions to nothing are rounding. Where paths end bonds may have
     given way for the next step: there all bodies count together, as contact comes in pairs.
     Multipliers that hold supports are in no force, so that bodies that they hold are not audited.
+    A run that was stopped within a step has the contacts of that step, not of the last state.
     """
     loading, plan, model = run.scene.loading, run.stepper.plan, run.stepper.model
     followed = loading is not None and loading.control is not None
-    if run.dynamic or (plan.contact is None and not followed):
+    ended = followed or run.verdict.code in (CONVERGED, FAILURE)
+    if run.dynamic or not ended or (plan.contact is None and not followed):
         return
     left, size = _left(run, with_contact=not followed)
     border = plan.border(run.state, Instant.of(run.state))

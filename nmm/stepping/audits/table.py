@@ -73,8 +73,8 @@ THRESHOLDS: dict[str, Threshold] = {
         "forces on it, or 1e-3 of the largest size",
         1e-6,
         1e-3,
-        "statics with contact, of bodies that no multipliers hold; `[loading.control]`, of "
-        "all bodies together",
+        "statics with contact that were solved, of bodies that no multipliers hold; "
+        "`[loading.control]`, of all bodies together",
     ),
     "field_imbalance": Threshold(
         "heat or water that was taken up and is not stored, over all that came and went",

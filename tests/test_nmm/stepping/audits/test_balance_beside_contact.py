@@ -46,3 +46,12 @@ def test_a_solver_that_says_it_has_found_what_it_has_not_is_found_out(monkeypatc
     assert run.summary.audits["force_balance"] == pytest.approx(missed / 2, rel=0.05)
     assert any("force_balance" in one for one in run.summary.warnings)
     assert run.summary.status == ("unbalanced" if missed > 1e-3 else "converged")
+
+
+def test_a_run_that_was_stopped_is_not_asked() -> None:
+    """It may have the contacts of a step half done beside its last state."""
+    load = '[[loads]]\nname = "down"\nkind = "point"\npoint = [0, 1.6]\nforce = [0, -1e3]\n'
+    steps = "[loading]\nuntil = 1.0\n[formulation.loading]\nincrement = 0.5\nmax_steps = 1\n"
+    run = nmm.run(parse_scene(STACK + load + steps))
+    assert run.summary.status == "budget_spent"
+    assert "force_balance" not in run.summary.audits
