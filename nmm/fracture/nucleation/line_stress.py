@@ -10,6 +10,7 @@ from integration.arrays import Bools, Floats, Ints
 from integration.rules import PointRule
 from nmm.assembly.model import Model
 from nmm.fracture.acting_stress import StressField
+from nmm.fracture.free_length import free_length
 
 # Points nearer to an element than this share of the size of the domain lie in it.
 NEAR = 1e-9
@@ -51,6 +52,15 @@ class LineStress:
         _, element = self._located(begin, way, body, shares)
         return np.asarray((element.reshape(len(begin), len(shares)) >= 0).all(axis=1))
 
+    def depth(self, begin: Floats, way: Floats, body: Ints, asked: Bools) -> Floats:
+        """Return how far bodies (k,) reach along lines (m); infinite of those not ``asked``."""
+        edges, found = self.model.cut.boundary, np.full(len(begin), np.inf)
+        for one in np.flatnonzero(asked):  # the lines of one chunk, over all edges each
+            own = edges.body == body[one]
+            ends = edges.start[own], edges.end[own]
+            found[one] = free_length(begin[one], way[one], *ends, self._size)
+        return found
+
     def _located(
         self, begin: Floats, way: Floats, body: Ints, shares: Floats
     ) -> tuple[Floats, Ints]:
@@ -76,4 +86,8 @@ class LineStress:
 
     @cached_property
     def _reach(self) -> float:
-        return NEAR * float(np.hypot(*np.ptp(self.model.manifold.elements.points, axis=0)))
+        return NEAR * self._size
+
+    @cached_property
+    def _size(self) -> float:
+        return float(np.hypot(*np.ptp(self.model.manifold.elements.points, axis=0)))
