@@ -64,6 +64,7 @@ def fitted_discs(cover: MovingLeastSquares, cut: CutCells) -> tuple[MovingLeastS
     return kept, replace(
         cut,
         element_cell=cell.ravel(),
+        cell_width=cut.cell_width[source],
         covers=number[cut.covers],
         cover_patch=cut.cover_patch[~lost],
         cover_region=cut.cover_region[~lost],

@@ -56,6 +56,15 @@ def test_cells_that_grow_within_the_domain_of_a_tip_are_told_before_they_cost_a_
     assert told == (growth > 0.5)
 
 
+def test_discs_that_hold_too_little_material_leave_the_cells_their_widths() -> None:
+    # Parts of cells that lost discs had none: "index 49 is out of bounds for axis 0 with size 49".
+    cover = '[formulation.cover]\ntype = "mls"\nsize = 0.25\ndegree = 0\n'
+    run = nmm.run(parse_scene(plate(cover)))
+    share = run.history["fracture:c:end:K_I"][-1] / (1.33371 * np.sqrt(np.pi * 0.5))  # A11
+    # Four cells along the crack.
+    assert share == pytest.approx(1.0, abs=5e-3)
+
+
 def holed(size: float, middle: tuple[float, float]) -> nmm.Run:
     """Return the plate of four metres with a hole of 0.1 m."""
     turn = np.linspace(0, 2 * np.pi, 48, endpoint=False)
