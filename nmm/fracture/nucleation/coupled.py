@@ -99,7 +99,7 @@ def edge_intensities(stress: Floats, depth: Floats) -> Floats:
     """K (k, a) of edge cracks under stresses (k, n), by critical lengths in the depth (k,)."""
     ratio = np.minimum(depth[:, None] * LENGTHS, DEEPEST)
     found = stress @ EDGE.T
-    for (second, sixth), rows in zip(STRIP, (STRAIGHT, BENT), strict=True):
+    for (second, sixth), rows in zip(STRIP, (STRIP_FIRST, STRIP_SECOND), strict=True):
         found += (second * ratio**2 + sixth * ratio**6) * (stress @ rows.T)
     return np.asarray(found)
 
@@ -165,4 +165,4 @@ def _intensities() -> tuple[Floats, ...]:
 
 
 MEANS = _means()
-EDGE, PLANE, TILTED, NOTCH, STRAIGHT, BENT, LENGTHS, RUNGS = _intensities()
+EDGE, PLANE, TILTED, NOTCH, STRIP_FIRST, STRIP_SECOND, LENGTHS, RUNGS = _intensities()

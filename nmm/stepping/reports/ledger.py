@@ -234,7 +234,7 @@ class Ledger:
         apart = sum(added for cause, added in self.changed_by.items() if cause != effect)
         gained = self.in_store - self.stored_first - apart
         others = self.dissipated - self.effect_loss.get(effect, 0.0)
-        return self.work - gained - others
+        return self.work - gained - others - self.integration_loss - self.contact_loss
 
     @property
     def _made(self) -> float:

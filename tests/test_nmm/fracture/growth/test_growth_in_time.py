@@ -142,6 +142,16 @@ def test_energy_of_growth_in_time_is_told_to_the_last_part(fallen: Run) -> None:
     assert grown[end] - grown[begin] <= bound * (time[end] - time[begin]) * (1 + 1e-9)
 
 
+@pytest.mark.parametrize("integrator", ["newmark", "shi"])
+def test_what_an_integrator_damps_is_not_freed_by_cracks(integrator: str) -> None:
+    run = nmm.run(hanging(), parse_formulation(NET.replace("newmark", integrator)))
+    history, lost = run.history, run.history["integration_loss"][-1]
+    # What opening faces gave up, and what functions about grown tips took as they were laid anew.
+    went = history["loss:fracture"][-1] - history["change_energy"][-1]
+    assert (lost > 0.2 * went) == (integrator == "shi")
+    assert run.summary.freed_energy == pytest.approx(went, rel=0.02)
+
+
 def test_a_run_in_time_that_is_stopped_goes_on_to_the_same_bytes(tmp_path: Path) -> None:
     scene = hanging(0.015, "[output]\ncheckpoint = { every_steps = 1 }\n")
     whole, folder = nmm.run(scene, net(), out=tmp_path / "whole"), tmp_path / "half"
