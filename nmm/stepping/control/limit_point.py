@@ -62,9 +62,11 @@ def limit_point(stepper: Stepper, state: State, factor: float) -> LimitPoint | N
     peak = verdict.load_factor
     if verdict.code != FAILURE or peak is None or last.load_factor >= peak:
         return None
+    kind = "dissipation" if soft else "events"
     sentence = (
-        f"a limit point was passed: followed beyond it, the path falls from load factor {peak:.6g} "
-        f"to {last.load_factor:.6g} in equilibrium"
+        f"a limit point was passed: beyond it the path falls from load factor {peak:.6g} to "
+        f"{last.load_factor:.6g} in equilibrium; it was followed as evidence and is not recorded: "
+        f'[loading.control] type = "{kind}" records it'
     )
     return LimitPoint(peak, sentence)
 

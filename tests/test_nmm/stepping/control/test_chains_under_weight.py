@@ -110,3 +110,6 @@ def test_a_growing_load_sees_its_limit_point_where_the_chain_snaps_back_too(ener
     run = chain(2, steps, '[loading]\nuntil = "failure"\n', law)
     largest = (STRENGTH - WEIGHT) / PULL
     assert f"the path falls from load factor {largest:.6g}" in run.summary.sentence
+    # Steps of the load are recorded, those of the path are not, and the sentence says which are.
+    assert np.all(np.diff(run.history["load_factor"]) > 0)
+    assert 'not recorded: [loading.control] type = "dissipation"' in run.summary.sentence
