@@ -109,7 +109,7 @@ force = [0, -1e6]
 
 
 def test_a_structure_without_support_is_refused_by_the_solution_not_answered() -> None:
-    text = BAR.replace('fix = ["y"]', 'fix = ["x"]')
+    text = BAR.replace("fix = ['y']", "fix = ['x']")
     text += '[[loads]]\nname="up"\nkind="point"\npoint=[2,1]\nforce=[0,1.0]\n'
     run = nmm.run(nmm.parse_scene(text))
     assert run.summary.status == "collapsed"
