@@ -18,6 +18,7 @@ from nmm.assembly.places import Place
 from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.constraints.interface import Interface, Triplets
+from nmm.constraints.multiplier_values import MultiplierValues
 from nmm.effects.base import Instant
 from nmm.errors import FormulationError
 from nmm.formulation import GHOST
@@ -26,7 +27,6 @@ from nmm.registry import Registry
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from nmm.constraints.multipliers import MultiplierValues
     from nmm.formulation import SupportMethod
 
 
@@ -110,7 +110,7 @@ class Imposition(ABC):
         return np.empty(0, dtype=np.int64)
 
     @property
-    def shared(self) -> "MultiplierValues | None":
+    def shared(self) -> MultiplierValues | None:
         """Multipliers; impositions with the same object share them. None without any."""
         return None
 

@@ -13,29 +13,13 @@ from nmm.assembly.state import State, initial_state
 from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface, Triplets, sparse_rows
 from nmm.constraints.multiplier_space import join, multipliers, pieces_of, traction_degree
+from nmm.constraints.multiplier_values import MultiplierValues
 
 # A condition that others imply up to this share of it is left out, and one that is this share of
 # the largest: it is the rounding of none. The first is the root of what products of rows resolve.
 IMPLIED, NOTHING = 1e-6, 1e-12
 # More conditions than this are not looked at.
 MANY = 3000
-
-
-@dataclass
-class MultiplierValues:
-    """The last values of multipliers, which interfaces may share.
-
-    Attributes
-    ----------
-    size
-        Number k of multipliers.
-    values, before
-        (k,) Pa, and as they were when the step began; None before any solution.
-    """
-
-    size: int
-    values: Floats | None = None
-    before: Floats | None = None
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,7 @@ from nmm.contact.iteration.options.budgets import IterationBudget
 from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.coulomb import label
 from nmm.contact.problem.cut_springs import IterationResult
+from nmm.contact.problem.refusal import refuse
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem, Verdict
 from nmm.errors import SolveError
 from nmm.registry import above_zero
@@ -60,7 +61,7 @@ class Barrier(IterativeEnforcement):
         self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None
     ) -> StepAnswer:
         """Balance the step from roughly settled springs, or in the end from no motion."""
-        problem.check()
+        refuse(problem)
         tools = self.tools(linear_solver, memory)
         springs, memory = stiff_springs(problem, 1.0), tools.memory
         try:

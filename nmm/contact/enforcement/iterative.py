@@ -82,8 +82,9 @@ class ExactEnforcement(IterativeEnforcement):
             rounds_verdict,
             stiff_springs,
         )
+        from nmm.contact.problem.refusal import refuse
 
-        problem.check()
+        refuse(problem)
         tools = self.tools(linear_solver, memory)
         goal = exact_goal(problem, self.tolerance, self.gap_tolerance)
         try:

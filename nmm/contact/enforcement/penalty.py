@@ -52,7 +52,9 @@ class Penalty(IterativeEnforcement):
         self, problem: "StepProblem", linear_solver: "LinearSolver", memory: "Memory | None" = None
     ) -> "StepAnswer":
         """Find the forces of the springs."""
-        problem.check()
+        from nmm.contact.problem.refusal import refuse
+
+        refuse(problem)
         tools = self.tools(linear_solver, memory)
         if self.iteration == "open_close":
             from nmm.contact.enforcement.open_close_passes import OpenClosePasses

@@ -1,27 +1,19 @@
 """What is wrong with a contact problem that no enforcement could make sense of, by name."""
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from integration.arrays import Floats
 from nmm.compiled import compiled
+from nmm.contact.problem.step_problem import COLUMNS, STIFFNESSES, StepProblem
 from nmm.errors import SolveError
 
-if TYPE_CHECKING:
-    from nmm.contact.problem.step_problem import StepProblem
-
-MATRICES, STIFFNESSES = (
-    ("matrix", "normal_rows", "tangent_rows"),
-    ("normal_stiffness", "shear_stiffness"),
-)
-COLUMNS = ("gap", "slip", *STIFFNESSES, "state", "normal_force", "shear_force")
-"""What a problem has of each contact beside its rows, limits and whose stiffness it is."""
+MATRICES = ("matrix", "normal_rows", "tangent_rows")
 
 
-def refuse(problem: "StepProblem") -> None:
-    """Refuse shapes and numbers that a solution cannot start from.
+def refuse(problem: StepProblem) -> None:
+    """Refuse shapes and numbers that no enforcement could make sense of.
 
     Raises
     ------

@@ -14,7 +14,6 @@ from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Bools, Floats, Ints, same
 from nmm.contact.problem.contact_state import ContactState
-from nmm.contact.problem.refusal import COLUMNS, refuse
 from nmm.contact.problem.residual_kernel import weighted
 from nmm.contact.problem.row_products import Compressed, along, compressed
 from nmm.frozen import MadeOnce
@@ -22,6 +21,9 @@ from nmm.interfaces.limits import Limits as Limits
 from nmm.solvers.known import known_load
 
 OPEN, STICK, SLIDE, BONDED, BROKEN = ContactState
+STIFFNESSES = ("normal_stiffness", "shear_stiffness")
+COLUMNS = ("gap", "slip", *STIFFNESSES, "state", "normal_force", "shear_force")
+"""What a problem has of each contact beside its rows, limits and whose stiffness it is."""
 
 
 @dataclass(frozen=True)
@@ -140,16 +142,6 @@ class StepProblem:
         """(n,) ``matrix @ d + normal_rows.T @ N + tangent_rows.T @ T - force``."""
         inner = self.matrix @ increment - self.force
         return np.asarray(inner + self.normal_rows.T @ normal + self.tangent_rows.T @ shear)
-
-    def check(self) -> None:
-        """Refuse shapes and numbers that no enforcement could make sense of.
-
-        Raises
-        ------
-        SolveError
-            Naming the first array at fault.
-        """
-        refuse(self)
 
 
 @dataclass(frozen=True)

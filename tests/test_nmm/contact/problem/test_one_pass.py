@@ -9,6 +9,7 @@ from nmm.contact.enforcement.rebalanced import FLOOR, imbalance_of_bodies
 from nmm.contact.iteration.answers import answer
 from nmm.contact.problem.coulomb import label
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
+from nmm.contact.problem.refusal import refuse
 from nmm.contact.problem.step_problem import StepProblem, Verdict
 from nmm.errors import SolveError
 from nmm.solvers.linear import make_solver
@@ -67,11 +68,11 @@ def test_unevenness_is_the_largest_share_of_what_meets_in_a_body(seed: int) -> N
 @pytest.mark.parametrize("name", COLUMNS)
 def test_a_column_of_another_length_or_that_is_no_number_is_refused_by_name(name: str) -> None:
     problem = random_problem(0)
-    problem.check()
+    refuse(problem)
     column = getattr(problem, name)
     with pytest.raises(SolveError):
-        replace(problem, **{name: column[:-1]}).check()
+        refuse(replace(problem, **{name: column[:-1]}))
     if name.endswith("force"):
         return  # where the search starts: any number will do
     with pytest.raises(SolveError, match=name):
-        replace(problem, **{name: np.where(np.arange(len(column)) == 1, np.nan, column)}).check()
+        refuse(replace(problem, **{name: np.where(np.arange(len(column)) == 1, np.nan, column)}))
