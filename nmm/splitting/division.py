@@ -48,18 +48,40 @@ def parts_of(
     return found if sizes(found).min() >= rules.smallest else np.array([polygon])
 
 
+def first_cuts(
+    shapes: Shapes, bodies: Ints, points: Floats, planes: Floats, rules: SplitRules
+) -> tuple[Ints, list[Shapes]]:
+    """Return which of the places (k,) cut their bodies, and the pieces of each.
+
+    A body is cut at the first of its places, in their order, that leaves no piece too small.
+    """
+    found: dict[int, tuple[int, Shapes]] = {}
+    for place, body in enumerate(bodies.tolist()):  # a polygon after the other is cut
+        if body not in found:
+            parts = parts_of(shapes[body], points[place], planes[place], rules)
+            if len(parts) > 1:
+                found[body] = place, parts
+    at = np.array([place for place, _ in found.values()], dtype=np.int64)
+    return at, [parts for _, parts in found.values()]
+
+
+def ranks(use: Floats) -> Ints:
+    """Return how many larger uses (m,) there are, counting as one those that are alike."""
+    order = np.argsort(-use, kind="stable")
+    falls = np.diff(use[order]) < -ALIKE * use[order][1:]
+    found = np.zeros(len(use), dtype=np.int64)
+    found[order[1:]] = np.cumsum(falls)
+    return found
+
+
 def allowed(use: Floats, more: Ints, room: int) -> Bools:
     """Return which blocks (m,) may split where only ``room`` blocks more may come to be.
 
     Those that are most beyond their strength come first; of those that are alike all or none.
     """
-    order = np.argsort(-use, kind="stable")
-    level = np.concatenate([[0], np.cumsum(np.diff(-use[order]) > ALIKE)])
-    needed = np.cumsum(more[order])
-    last = np.array([needed[level == one].max() for one in np.unique(level)])
-    found = np.zeros(len(use), dtype=bool)
-    found[order] = (last <= room)[level]
-    return found
+    rank = ranks(use)
+    needed = np.cumsum(np.bincount(rank, more))
+    return np.asarray((needed <= room)[rank])
 
 
 def replaced(polygons: Polygons, splits: Mapping[int, Shapes]) -> tuple[Polygons, Ints]:

@@ -9,8 +9,7 @@ from scipy.sparse import csr_array
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.splitting.centres import at_centres
-from nmm.splitting.division import ALIKE
-from nmm.splitting.strength import SplitJudgement
+from nmm.splitting.division import ranks
 
 Where = Literal["centroid", "elements"]
 
@@ -50,15 +49,10 @@ class Sites:
         remote = np.hypot(*(point - middle[body[own]]).T)
         return cls(csr_array(one, shape=(len(own), len(body))), body[own], point, remote)
 
-    def worst(self, judged: SplitJudgement) -> Ints:
-        """Return the site (b,) of each body that uses most of the strength, in order of bodies.
+    def in_order(self, use: Floats) -> Ints:
+        """Return the sites body by body, those first that use most of its strength (s,).
 
         Of those that use as much it is the one nearest to the middle, so that what is symmetric
         does not hang on the numbers of elements.
         """
-        n = int(self.body.max(initial=-1)) + 1
-        most = np.full(n, -np.inf)
-        np.maximum.at(most, self.body, judged.use)
-        alike = np.flatnonzero(judged.use >= most[self.body] * (1 - ALIKE))
-        order = alike[np.lexsort((self.remote[alike], self.body[alike]))]
-        return np.asarray(order[np.unique(self.body[order], return_index=True)[1]])
+        return np.lexsort((self.remote, ranks(use), self.body))

@@ -13,12 +13,11 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
-from integration.polygons import Polygons
 from nmm.assembly.state import State
 from nmm.effects.base import Effect, Setup
 from nmm.effects.event import Event
 from nmm.splitting.cuts import Shapes
-from nmm.splitting.division import SplitRules, allowed, parts_of, replaced
+from nmm.splitting.division import SplitRules, allowed, first_cuts, replaced
 from nmm.splitting.outlines import outlines
 from nmm.splitting.refusals import refuse
 from nmm.splitting.sites import Sites, Where
@@ -41,14 +40,26 @@ class SplitLaw:
     where: Where
 
 
+@dataclass(frozen=True)
+class KeptWhole:
+    """Number of blocks kept whole beyond their strength, and the largest share that one uses."""
+
+    blocks: int = 0
+    use: float = 0.0
+
+    def beside(self, blocks: int, use: float) -> "KeptWhole":
+        """Return these and some more."""
+        return KeptWhole(self.blocks + blocks, max(self.use, float(use)))
+
+
 class Splitting(Effect):
     """The blocks of all materials that may split.
 
     Attributes
     ----------
-    kept_whole
-        Number of blocks beyond their strength that the rules keep whole, in the state that was
-        judged last; it is told and decides nothing.
+    kept
+        Blocks that the rules keep whole, in the state that was judged last; they are told and
+        decide nothing.
     born
         (B,) when each body came to be, s; minus infinity where it always was.
     """
@@ -57,7 +68,7 @@ class Splitting(Effect):
     external = False
 
     def __init__(self, setup: Setup, laws: Mapping[int, SplitLaw]) -> None:
-        self._setup, self._laws, self.kept_whole = setup, laws, 0
+        self._setup, self._laws, self.kept = setup, laws, KeptWhole()
         manifold = setup.model.manifold
         self.born = np.full(manifold.n_bodies, -np.inf)
         material = np.zeros(manifold.n_bodies, dtype=np.int64)
@@ -86,7 +97,7 @@ class Splitting(Effect):
     def follow(self, change: "Change") -> "Splitting":
         """Return the splitting of the present blocks."""
         new = Splitting(change.setup, self._laws)
-        new.kept_whole = self.kept_whole
+        new.kept = self.kept
         bodies = change.parentage.bodies
         parted = np.bincount(bodies.parent, minlength=bodies.n_parents) > 1
         parent = np.maximum(bodies.main, 0)
@@ -100,23 +111,23 @@ class Splitting(Effect):
         rests = self._rests(state.time)
         polygons, home = None, np.zeros(0, dtype=np.int64)
         splits: dict[int, Shapes] = {}
-        pulled, kept = 0, 0
+        pulled, kept = 0, KeptWhole()
         for number, law in self._laws.items():  # a handful of materials
             sites = self._sites[number]
             judged = law.strength.judged(np.asarray(sites.weights @ stress))
-            worst = sites.worst(judged)
-            body = sites.body[worst]
-            over = (judged.use[worst] >= 1) & rests[body]
-            if not over.any():
+            order = sites.in_order(judged.use)
+            over = order[(judged.use[order] >= 1) & rests[sites.body[order]]]
+            if not len(over):
                 continue
             if polygons is None:
                 polygons, home = outlines(self._setup.model, self._setup.geometry.regions)
-            room, chosen = law.rules.most - len(body), worst[over]
-            found = self._divided(polygons, sites, chosen, judged.only(chosen), state, law, room)
-            pulled += int(judged.tension[worst][np.isin(body, list(found))].sum())
-            kept += int(over.sum()) - len(found)
-            splits |= found
-        self.kept_whole = kept
+            shapes = polygons.to_shapely()
+            cut, parts = self._divided(shapes, sites, over, judged, state, law.rules)
+            pulled += int(judged.tension[cut].sum())
+            splits |= zip(sites.body[cut].tolist(), parts, strict=True)
+            whole = over[~np.isin(sites.body[over], sites.body[cut])]
+            kept = kept.beside(len(np.unique(sites.body[whole])), judged.use[whole].max(initial=0))
+        self.kept = kept
         if polygons is None or not splits:
             return None
         pieces, parent = replaced(polygons, splits)
@@ -125,15 +136,16 @@ class Splitting(Effect):
         return Event(geometry, _said(splits, pulled))
 
     def history(self, state: State) -> Mapping[str, float]:
-        """Numbers of bodies, and of those that are kept whole beyond their strength."""
+        """Number of bodies, of those kept whole beyond their strength, and the most they use."""
         bodies = self._setup.model.manifold.n_bodies
-        return {"bodies": bodies, "kept_whole": self.kept_whole}
+        return {"bodies": bodies, "kept_whole": self.kept.blocks, "kept_use": self.kept.use}
 
-    def carried(self) -> tuple[int, Floats]:
-        return self.kept_whole, self.born
+    def carried(self) -> tuple[int, float, Floats]:
+        return self.kept.blocks, self.kept.use, self.born
 
-    def carry(self, carried: tuple[int, Floats]) -> None:
-        self.kept_whole, self.born = carried
+    def carry(self, carried: tuple[int, float, Floats]) -> None:
+        blocks, use, self.born = carried
+        self.kept = KeptWhole(blocks, use)
 
     def _rests(self, time: float) -> Bools:
         """Which bodies (B,) a wave has crossed since they came to be; all in statics."""
@@ -151,32 +163,25 @@ class Splitting(Effect):
 
     def _divided(
         self,
-        polygons: Polygons,
+        shapes: Shapes,
         sites: Sites,
-        chosen: Ints,
+        over: Ints,
         judged: SplitJudgement,
         state: State,
-        law: SplitLaw,
-        room: int,
-    ) -> dict[int, Shapes]:
-        """Return the pieces of the blocks that split at the sites ``chosen`` (m,), by body.
+        rules: SplitRules,
+    ) -> tuple[Ints, list[Shapes]]:
+        """Return the sites at which bodies split, of shapes (B,), and the pieces of each.
 
-        ``room`` more blocks may come to be.
+        ``over`` (k,) are the sites beyond their strength in the order in which they are asked.
         """
-        frames, bodies = state.frames, sites.body[chosen]
+        body, frames = sites.body[over], state.frames
         turned = frames.angle if frames.tilt is None else frames.angle + frames.tilt
-        found = [
-            parts_of(shape, point, planes, law.rules)  # a polygon after the other is cut
-            for shape, point, planes in zip(
-                polygons.take(bodies).to_shapely(),
-                sites.point[chosen],
-                judged.planes - turned[bodies, None],
-                strict=True,
-            )
-        ]
-        more = np.array([len(shapes) - 1 for shapes in found])
-        splits = (more > 0) & allowed(np.where(more > 0, judged.use, 0.0), more, room)
-        return {int(bodies[one]): found[one] for one in np.flatnonzero(splits)}
+        planes = judged.planes[over] - turned[body, None]
+        at, parts = first_cuts(shapes, body, sites.point[over], planes, rules)
+        more = np.array([len(one) - 1 for one in parts], dtype=np.int64)
+        room = rules.most - len(np.unique(sites.body))
+        may = np.flatnonzero(allowed(judged.use[over[at]], more, room))
+        return over[at[may]], [parts[one] for one in may]
 
 
 def strength_of(table: "SplittingTable") -> BlockStrength:

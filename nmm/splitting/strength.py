@@ -3,7 +3,7 @@
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
-from integration.arrays import Bools, Floats, Ints
+from integration.arrays import Bools, Floats
 from nmm.registry import Registry
 
 
@@ -25,10 +25,6 @@ class SplitJudgement:
     use: Floats
     planes: Floats
     tension: Bools
-
-    def only(self, chosen: Ints) -> "SplitJudgement":
-        """Return some of the blocks."""
-        return SplitJudgement(self.use[chosen], self.planes[chosen], self.tension[chosen])
 
 
 class BlockStrength(ABC):

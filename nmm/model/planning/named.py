@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from nmm.effects.initial.initial_stress import InitialStress
     from nmm.effects.loads import Loads
     from nmm.fracture.growth.growing import GrowingCracks
+    from nmm.splitting.splitting import Splitting
 
 
 class NamedEffects(Hooks):
@@ -39,6 +40,11 @@ class NamedEffects(Hooks):
     def scaled_load(self, factor: float) -> float | None:
         """Return the resultant (N) of the scaled loads at a load factor; None without loads."""
         return None if self.loads is None else self.loads.scaled_resultant(factor)
+
+    @property
+    def splitting(self) -> "Splitting | None":
+        """The blocks that may split."""
+        return self.effects.get("splitting")  # type: ignore[return-value]
 
     @property
     def supports(self) -> "Supports | None":

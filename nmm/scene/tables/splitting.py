@@ -16,14 +16,14 @@ class SplittingTable(Frozen):
     """Blocks of a material split where the stress of one reaches the strength; needs contact.
 
     The stress is that at the centroid, the mean of the elements that touch it, or that of the
-    element that is nearest to its strength (`judged_at`); in time a piece is judged once a wave has
-    crossed it. A block splits along the plane through that place that the law names: normal to
-    the larger principal stress by tension; by shear along one of two planes at 45 - phi/2
-    degrees to the direction of the largest compression, the one whose new faces are shorter,
-    along both where they are as long. The new faces meet by the interface of the material with
-    itself, without a bond. A block stays whole where a piece would be smaller than
-    `smallest_block`, or there would be more than `most_blocks`; those that are most beyond
-    their strength come first.
+    element that is nearest to its strength, or of the next where a piece would be too small
+    (`judged_at`); in time a piece is judged once a wave has crossed it. A block splits along the
+    plane through that place that the law names: normal to the larger principal stress by tension;
+    by shear along one of two planes at 45 - phi/2 degrees to the direction of the largest
+    compression, the one whose new faces are shorter, along both where they are as long. The new
+    faces meet by the interface of the material with itself, without a bond. A block stays whole
+    where a piece would be smaller than `smallest_block`, or there would be more than
+    `most_blocks`; those that are most beyond their strength come first.
     """
 
     law: PartName = Field(

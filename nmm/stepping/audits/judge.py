@@ -12,6 +12,7 @@ from nmm.stepping.audits.equations import equations
 from nmm.stepping.audits.fields import fields
 from nmm.stepping.audits.growth import growth
 from nmm.stepping.audits.softening import softening
+from nmm.stepping.audits.splitting import splitting
 from nmm.stepping.audits.steps import steps
 from nmm.stepping.audits.strains import strains
 from nmm.stepping.drive.verdict import CONVERGED, FAILURE, UNBALANCED, RunVerdict
@@ -25,6 +26,7 @@ AUDITS: tuple[Callable[[EndedRun], Findings], ...] = (
     growth,
     closed_cracks,
     softening,
+    splitting,
     steps,
     strains,
 )

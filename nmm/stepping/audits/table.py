@@ -156,6 +156,12 @@ THRESHOLDS: dict[str, Threshold] = {
         None,
         'contact, unless `[rotation] update = "finite"`',
     ),
+    "kept_whole": Threshold(
+        "largest share of its strength that a block uses where a run ends, and splits no more",
+        1.1,
+        None,
+        "`[splitting]`",
+    ),
     "growth_energy": Threshold(
         "energy that growth freed less what its toughness took, over the largest energy",
         1e-3,

@@ -27,7 +27,7 @@ between = "any"
 friction_angle = "20 deg"
 [splitting.rock]
 tensile_strength = 2e6
-smallest_block = "5 mm"
+smallest_block = {smallest}
 judged_at = "elements"
 [[blocks]]
 name = "beam"
@@ -59,7 +59,7 @@ def cantilever(x):
     return x - LENGTH  # tension at the top
 
 
-def beam(moment, share, kind, size, turn):
+def beam(moment, share, kind, size, turn, smallest=0.005):
     """A turned beam whose cells of most tension use a share of the strength.
 
     Stepper, middles of the cells along and across it, and their stresses.
@@ -67,7 +67,7 @@ def beam(moment, share, kind, size, turn):
     c, s = np.cos(turn), np.sin(turn)
     rotate = np.array([[c, -s], [s, c]])
     corners = np.array([[0, 0], [LENGTH, 0], [LENGTH, HEIGHT], [0, HEIGHT]]) @ rotate.T
-    text = BEAM.format(corners=corners.tolist(), kind=kind, size=size)
+    text = BEAM.format(corners=corners.tolist(), kind=kind, size=size, smallest=smallest)
     scene = nmm.parse_scene(text, "scene")
     stepper = prepare(scene, scene.formulation).stepper
     cells = stepper.model.manifold.elements.centroids @ rotate
@@ -78,9 +78,9 @@ def beam(moment, share, kind, size, turn):
     return stepper, cells, full[:, [0, 1, 0], [0, 1, 1]]
 
 
-def pieces_of(moment, share, kind="quads", size=0.02, turn=0.0):
+def pieces_of(moment, share, kind="quads", size=0.02, turn=0.0, smallest=0.005):
     """Areas of the pieces in order along the beam, where it is cut, and the middles of cells."""
-    stepper, cells, stress = beam(moment, share, kind, size, turn)
+    stepper, cells, stress = beam(moment, share, kind, size, turn, smallest)
     c, s = np.cos(turn), np.sin(turn)
     rotate = np.array([[c, -s], [s, c]])
     view = SimpleNamespace(stress=stress, state=initial_state(stepper.model.manifold))
@@ -108,6 +108,87 @@ def test_a_cantilever_splits_at_the_built_in_end():
     areas, cut, _ = pieces_of(cantilever, 1.001)
     assert 0 < cut < 0.02  # the first cell
     assert areas.sum() == pytest.approx(LENGTH * HEIGHT, rel=1e-12)
+
+
+@pytest.mark.parametrize("turn", [0.0, np.pi / 2, np.pi])
+@pytest.mark.parametrize("wall", [0, LENGTH])
+def test_where_a_piece_would_be_too_small_the_next_stressed_cell_is_cut(turn, wall):
+    """Strips of 0.05 m are 33 mm wide: cells at 0.05 m, which bear 0.95 / 0.99 of the first."""
+
+    def moment(x):
+        return -np.abs(LENGTH - wall - x)
+
+    first = 0.99 / 0.95
+    assert pieces_of(moment, 0.999 * first, turn=turn, smallest=0.05)[0] is None
+    areas, *_ = pieces_of(moment, 1.001 * first, turn=turn, smallest=0.05)
+    np.testing.assert_allclose(np.sort(areas), [0.05 * HEIGHT, 0.95 * HEIGHT], rtol=1e-9)
+
+
+LINE = """
+title = "cantilever"
+plane = "stress"
+[materials.rock]
+young_modulus = "10 GPa"
+poisson_ratio = 0
+[contact]
+[interfaces.any]
+between = "any"
+friction_angle = "20 deg"
+[splitting.rock]
+tensile_strength = "2 MPa"
+smallest_block = {smallest}
+judged_at = "elements"
+[[blocks]]
+name = "beam"
+material = "rock"
+vertices = {corners}
+[[supports]]
+name = "wall"
+segment = [[0, 0], [0, 0.5]]
+fix = ["x", "y"]
+[[loads]]
+name = "line"
+kind = "edge"
+segment = [[0, 0.5], [{end}, 0.5]]
+traction = [0, -1e4]
+[loading]
+until = {until}
+[formulation.loading]
+increment = 2.0
+tolerance = 1e-3
+[formulation.cover]
+type = "quads"
+degree = 0
+size = 0.05
+"""
+
+
+def cantilever_of(end, smallest=0.05, until='"failure"'):
+    """A run of a beam 0.5 m deep from a wall to ``end`` (m) under 10 kN/m."""
+    corners = [[0, 0], [end, 0], [end, 0.5], [0, 0.5]]
+    text = LINE.format(corners=corners, end=end, smallest=smallest, until=until)
+    return nmm.run(nmm.parse_scene(text, "scene"))
+
+
+@pytest.mark.parametrize("end", [2.0, -2.0])
+def test_a_cantilever_fails_where_bending_parts_the_first_piece_that_is_large_enough(end):
+    """In the second cell from the wall, which has the mean stress of depths 0.2 to 0.25 m."""
+    arm, lever, inertia = 2.0 - 0.075, 0.225, 0.5**3 / 12
+    expected = 2e6 * inertia / lever / (1e4 * arm**2 / 2)
+    found = cantilever_of(end)
+    assert found.summary.status == "failure_load", found.summary.sentence
+    # The wall keeps its section plane, which shear would warp.
+    assert found.summary.failure_factor == pytest.approx(expected, rel=0.03)
+
+
+def test_a_beam_that_no_piece_may_leave_is_told_with_how_far_it_is_beyond_its_strength():
+    """Pieces of a beam 0.5 m deep have a size of 0.8 m if they are 2 m long, as all of it is."""
+    found = cantilever_of(2.0, smallest=0.8, until=10.0)
+    arm, lever, inertia = 2.0 - 0.025, 0.225, 0.5**3 / 12
+    expected = 1e5 * arm**2 / 2 * lever / inertia / 2e6
+    assert found.summary.audits["kept_whole"] == pytest.approx(expected, rel=0.1)
+    assert found.history["splitting:kept_use"][-1] == found.summary.audits["kept_whole"]
+    assert any("keeps whole 1 block beyond" in one for one in found.summary.warnings)
 
 
 def test_a_beam_below_its_strength_stays_whole():
