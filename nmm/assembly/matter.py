@@ -119,6 +119,11 @@ class Matter:
                         f'"{STRESS}", "{INITIAL}" and "{SWELLING}", which the program keeps '
                         "itself: rename it"
                     )
+                if np.ndim(value) != 1:
+                    raise FormulationError(
+                        f'law {type(law).__name__}: variable "{name}": shape {np.shape(value)}: '
+                        "expected an array (h,), also of one number: np.array([value])"
+                    )
                 known = found.get(name, np.zeros((len(self.law), 0)))
                 more = max(len(value) - known.shape[1], 0)
                 found[name] = np.pad(known, ((0, 0), (0, more)))

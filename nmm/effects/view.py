@@ -23,7 +23,7 @@ class View:
         Manifold with its materials, and the accepted state.
     contacts
         The C contact points; None without contact.
-        stress_of
+    stress_of
         Function of a state that returns mean Cauchy stresses (E, 3) in global axes (Pa).
     """
 

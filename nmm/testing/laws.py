@@ -90,7 +90,10 @@ class _InCells(Law):
 
 def start_of(law: Law, plane: str, points: int) -> dict[str, Floats]:
     """Return the internal variables (points, h) of matter that nothing has happened to."""
-    return {name: np.tile(one, (points, 1)) for name, one in law.variables(plane).items()}
+    given = law.variables(plane)
+    for name, one in given.items():
+        claim(np.ndim(one) == 1, f"variables: {name} of shape {np.shape(one)}, expected (h,)")
+    return {name: np.tile(one, (points, 1)) for name, one in given.items()}
 
 
 def answered(law: Law, strain: Floats, history: History, plane: str, step: float) -> Response:
@@ -222,5 +225,6 @@ def _loss(
     given = float((energy - stored - work).max())
     claim(
         given <= 1e-3 * scale,
-        f"{where}: a path gives {given / scale:.1e} of its energy: `energy` says what is stored",
+        f"{where}: a path gives back {given / scale:.1e} of its energy beyond what was stored: "
+        "correct the stress, or `energy`, which returns what is stored at a stress",
     )

@@ -18,7 +18,7 @@ from nmm.scene import read_scene
 from nmm.scene.document import parse, read_text
 from nmm.scene.fields import Frozen, Number, Prose, Text
 from nmm.stepping.run import run
-from nmm.study.cases.quantities import check_quantity, quantity
+from nmm.study.cases.quantities import check_quantity_name, quantity
 from nmm.verification.base import Case, Check, Checks
 
 SCENE, FORMULATION, EXPECTED = "scene.toml", "formulation.toml", "expected.toml"
@@ -143,7 +143,7 @@ def publish(
         else scene.formulation or Formulation()
     )
     for name in quantities:
-        check_quantity(scene, name)
+        check_quantity_name(scene, name)
     done = run(scene, chosen)
     said = {item.quantity: item.source for item in scene.references}
     values = [

@@ -74,6 +74,59 @@ def test_quantities_of_ones_own_are_in_paraview(done, tmp_path):
     assert values == pytest.approx([-TILT], rel=1e-12)
 
 
+STIFFENING = """
+import numpy as np
+from scipy.sparse import csc_array
+
+from foundation import Winkler
+from nmm.effects.given.steps import StepForce
+
+WAY = 0.05
+
+
+class Stiffening(Winkler):
+    def force(self, state, end):
+        u = self._way(state)
+        return -np.asarray(self._rows(state).T @ (self._stiffness * u * (1 + (u / WAY) ** 2)))
+
+    def matrix(self, state):
+        slope = self._stiffness * (1 + 3 * (self._way(state) / WAY) ** 2)
+        rows = self._rows(state)
+        return csc_array(rows.T @ rows.multiply(slope[:, None]))
+
+    def step_force(self, before, after, span):
+        return StepForce(self.force(after, None), lambda: self.matrix(after))
+
+    def energy(self, state):
+        u = self._way(state)
+        return float(self._stiffness @ (u**2 / 2 + u**4 / 4 / WAY**2))
+"""
+
+
+def test_work_of_loads_on_a_spring_that_stiffens_is_as_good_as_its_increments(
+    tmp_path, monkeypatch
+):
+    (tmp_path / "stiffening.py").write_text(STIFFENING)
+    for folder in (RAFT.parent, tmp_path):
+        monkeypatch.syspath_prepend(str(folder))
+    text = RAFT.read_text().replace("foundation:Winkler", "stiffening:Stiffening", 1)
+    text = text.replace("point = [2.5, 1.0]", "point = [2.0, 1.0]")
+    lacking = []
+    for parts in (10, 20):
+        scene = nmm.parse_scene(
+            text + f"[loading]\nuntil = 1\n[formulation.loading]\nincrement = {1 / parts}\n"
+        )
+        done = nmm.run(scene, allow_code=["stiffening", "foundation", "steepness"])
+        lacking.append(done.summary.audits["work_not_stored"])
+        (said,) = [one for one in done.summary.warnings if "work_not_stored" in one]
+        assert "the force of effects.ground is no line" in said
+        settlement = done.history["ground:settlement"][-1]
+        # k L u (1 + (u / WAY)^2) is the load.
+        assert settlement * (1 + (settlement / 0.05) ** 2) == pytest.approx(SINKS, rel=1e-4)
+    # The means of the loads at both ends are a rule of order two.
+    assert lacking[0] / lacking[1] == pytest.approx(4, rel=0.05)
+
+
 def test_what_a_scene_does_not_name_is_not_imported(monkeypatch):
     tables = tomllib.loads(RAFT.read_text())
     del tables["effects"], tables["output"]
@@ -129,7 +182,7 @@ def test_quantities_of_ones_own_are_drawn_by_name(done):
 
     axes = plots.stress(done, "ground:pressure")
     (bar,) = [one for one in axes.figure.axes if one is not axes]
-    assert bar.get_ylabel() == "ground:pressure  (kPa)"
+    assert bar.get_ylabel() == "ground pressure  (kPa)"
     drawn = np.ma.getdata(axes.collections[0].get_array())
     assert drawn == pytest.approx([LOAD / LENGTH / 1e3], rel=1e-12)
     with pytest.raises(nmm.NmmError, match="minor, ground:pressure, friction:pressure, von_mises"):

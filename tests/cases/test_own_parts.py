@@ -77,3 +77,27 @@ def test_a_material_law_of_ones_own_remembers_and_creeps() -> None:
 def test_the_law_of_the_example_keeps_what_every_law_must(script: Script) -> None:
     law = script(EXAMPLES / "own_law" / "maxwell.py").Maxwell(10e9, 0.25, 4e14)
     check_law(law, planes=("strain",), step=1e4)
+
+
+@pytest.mark.usefixtures("beside")
+def test_a_variable_of_ones_own_that_is_no_array_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.syspath_prepend(str(tmp_path))
+    (tmp_path / "scalar.py").write_text(
+        "from maxwell import Maxwell\n\n\nclass Scalar(Maxwell):\n"
+        "    def variables(self, plane):\n        return {'age': 0.0}\n"
+    )
+    text = (
+        (EXAMPLES / "own_law" / "creep.toml")
+        .read_text()
+        .replace("maxwell:Maxwell", "scalar:Scalar")
+    )
+    with pytest.raises(
+        nmm.NmmError, match=r'Scalar: variable "age": shape \(\): expected an array'
+    ):
+        nmm.run(nmm.parse_scene(text), allow_code=["scalar"])
+    from scalar import Scalar  # type: ignore[import-not-found]
+
+    with pytest.raises(AssertionError, match=r"variables: age of shape \(\)"):
+        check_law(Scalar(10e9, 0.25, 4e14), planes=("strain",))

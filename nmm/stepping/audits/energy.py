@@ -37,6 +37,8 @@ BENT = (
     ": work is of the means of loads at both ends of increments, within which bodies bend and turn",
     TOUCHED[1],
 )
+MEANS = ": work is of the means of loads at both ends of increments, within which the force of"
+WRONG = "the solution is not one of its equations: look at the residual and the condition"
 
 
 def energy(run: EndedRun) -> Findings:
@@ -58,11 +60,13 @@ def energy(run: EndedRun) -> Findings:
         yield from _damped(run)
     elif run.stepper.small and run.stepper.plan.contact is None:
         lacking = abs(ledger.balance) * ledger.throughput
+        curved = run.stepper.plan.bent
+        within = f"{MEANS} {' and '.join(curved)} is no line in the displacement"
         yield AuditFinding(
             "work_not_stored",
             0.0 if lacking <= _rounding(run) else abs(ledger.balance),
-            f"work and stored energy differ by {percent(ledger.balance)}",
-            "the solution is not one of its equations: look at the residual and the condition",
+            f"work and stored energy differ by {percent(ledger.balance)}{within if curved else ''}",
+            TOUCHED[1] if curved else WRONG,
         )
     else:
         yield from _released(run)

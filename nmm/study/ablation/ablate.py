@@ -13,7 +13,7 @@ from nmm.scene.document import build
 from nmm.scene.faults import Source
 from nmm.study.ablation.omissions import Omission, omissions
 from nmm.study.cases.measure import measure
-from nmm.study.cases.quantities import check_quantity
+from nmm.study.cases.quantities import check_quantity_name
 from nmm.study.cases.record import Record
 from nmm.study.cases.variants import StudyCase
 
@@ -107,7 +107,7 @@ def ablate(
     """
     names = tuple(quantities) or _asked(scene)
     for name in names:
-        check_quantity(scene, name)
+        check_quantity_name(scene, name)
     tables = scene.model_dump(mode="json", by_alias=True, exclude_defaults=True)
     method = formulation.model_dump(mode="json", exclude_defaults=True)
     whole = StudyCase(WHOLE, scene, formulation)

@@ -63,7 +63,7 @@ def _column(run: Measured, name: str) -> Floats:
     return run.history[name]
 
 
-def check_quantity(scene: "Scene", name: str) -> None:
+def check_quantity_name(scene: "Scene", name: str) -> None:
     """Refuse a name that no run of a scene has, before any is made.
 
     Raises

@@ -12,7 +12,7 @@ from nmm.formulation import Formulation
 from nmm.progress import Progress
 from nmm.scene import Scene
 from nmm.study.cases.measure import measure
-from nmm.study.cases.quantities import check_quantity
+from nmm.study.cases.quantities import check_quantity_name
 from nmm.study.cases.record import Record
 from nmm.study.cases.running import SKFEM
 from nmm.study.cases.variants import cases_of
@@ -119,7 +119,7 @@ def cost_study(
     cases = cases_of(scene, formulations, vary)
     stated = reference or stated_reference(scene, name)
     quantity = name or (stated.quantity if stated else "energy")
-    check_quantity(scene, quantity)
+    check_quantity_name(scene, quantity)
     records = measure(cases, [quantity], repeats, memory, progress)
     if not any(one.valid for one in records):
         raise NmmError(f"all {len(records)} runs failed; {records[0].label}: {records[0].sentence}")

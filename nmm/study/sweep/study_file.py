@@ -13,7 +13,7 @@ from nmm.formulation import Formulation
 from nmm.scene import read_scene
 from nmm.scene.document import parse, read_text
 from nmm.scene.fields import Count, Frozen, Text
-from nmm.study.cases.quantities import check_quantity
+from nmm.study.cases.quantities import check_quantity_name
 from nmm.study.cases.variants import StudyCase, cases_of, read_formulations
 
 
@@ -85,7 +85,7 @@ def _cases(folder: Path, plan: StudyPlan, name: str) -> list[StudyCase]:
         own = scene.formulation or Formulation()
         kinds = {own.title or "scene's own": own}
     for quantity in plan.quantities:
-        check_quantity(scene, quantity)
+        check_quantity_name(scene, quantity)
     cases = cases_of(scene, kinds, plan.vary)
     if not plan.scenes:
         return cases

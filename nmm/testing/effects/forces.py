@@ -1,17 +1,19 @@
-"""How force, matrix, work, energy and loss of an effect fit each other.
+"""What a force of an effect is, and how force, matrix, work, energy and loss fit each other.
 
 Forces are finite, one for each unknown, and the same when asked again. What an effect gives in a
-small motion, its work less what it stores more and takes, is its mean force times the way. The
-matrix is symmetric, and less the change of the force with the motion (by central differences); of
-a force that depends on the length of the step, in one of `STEP`.
+small motion, its work less what it stores more and takes, is its force times the way. The
+matrix is symmetric, and less the change of the force with the motion (by central differences,
+extrapolated); of a force that depends on the length of the step, in one of `STEP`.
 
 Forces with limits have kinks: members that go slack, yield or slide. Motions of these, and of
-members that turn, are made of `PIECES`, and a matrix is compared where its force meets no kink.
+members that turn, are made of `PIECES`, and a matrix is compared in motions in which its force
+meets no kink and hardly bends.
 """
 
 from itertools import pairwise
 
 import numpy as np
+from scipy.integrate import simpson
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
@@ -42,7 +44,6 @@ def check_forces(effect: Effect, name: str, model: Model, state: State, seed: in
     """
     ways = _ways(model, seed)
     if defines(effect, "force"):
-        _force(effect, name, state, model.manifold.n_unknowns)
         claim(
             any(defines(effect, one) for one in ("work", "energy", "loss")),
             f"{name}: its force does work that it does not declare: define work, energy or loss",
@@ -72,7 +73,14 @@ def _at_rest(state: State) -> State:
     return with_parts(state, velocity=np.zeros_like(state.velocity))
 
 
-def _force(effect: Effect, name: str, state: State, n: int) -> None:
+def check_force(effect: Effect, name: str, state: State, n: int) -> None:
+    """Hold a force to being (n,) finite numbers, and the same when asked again.
+
+    Raises
+    ------
+    AssertionError
+        Naming what it is not.
+    """
     force = np.asarray(effect.force(state, Instant.of(state)))
     claim(force.shape == (n,), f"{name}: force of shape {force.shape}, expected {(n,)}")
     finite(f"{name}: force", force)
@@ -81,25 +89,22 @@ def _force(effect: Effect, name: str, state: State, n: int) -> None:
 
 
 def _work(effect: Effect, name: str, model: Model, state: State, way: Floats) -> None:
-    """Compare what the effect gives on a way with its mean force times it."""
-    nonlinear = effect.limited or (defines(effect, "step_force") and effect.nonlinear)
-    shares = np.linspace(0, 1, PIECES + 1) if nonlinear else np.array([-0.5, 0.5])
+    """Compare what the effect gives on a way with its force times it, by Simpson's rule."""
+    shares = np.linspace(0, 1, PIECES + 1) if _curved(effect) else np.array([-0.5, 0.0, 0.5])
     places = [strain_only(model, state, share * way) for share in shares]
-    given = expected = size = 0.0
-    for before, after in pairwise(places):
-        mean = (_now(effect, before) + _now(effect, after)) / 2
-        part = way * (shares[1] - shares[0])
-        expected += float(mean @ part)
-        given += _given(effect, before, after)
-        size += float(np.abs(mean) @ np.abs(part))
+    forces = np.array([effect.force(one, Instant.of(one)) for one in places])
+    given = sum(_given(effect, *pair) for pair in pairwise(places))
+    expected = float(simpson(forces @ way, x=shares))
+    size = float(simpson(np.abs(forces) @ np.abs(way), x=shares))
     stored = effect.energy(places[-1]) if defines(effect, "energy") else 0.0
     unit = size + 1e-3 * abs(stored) or 1.0
-    what = f"{name}: work less the gain of energy and the loss over the mean force times the way"
+    what = f"{name}: work less the gain of energy and the loss, over the force times the way"
     close(what, given / unit, expected / unit, KINKED if effect.limited else ENERGY)
 
 
-def _now(effect: Effect, state: State) -> Floats:
-    return effect.force(state, Instant.of(state))
+def _curved(effect: Effect) -> bool:
+    """Whether the force is no line in the unknowns."""
+    return effect.limited or (defines(effect, "step_force") and effect.nonlinear)
 
 
 def _given(effect: Effect, before: State, after: State) -> float:
@@ -133,10 +138,11 @@ def _matrix(effect: Effect, name: str, model: Model, state: State, ways: list[Fl
         expected = -(matrix @ way)
         unit = float(np.abs(expected).max()) or 1.0
         off = (np.abs(one - 2 * share * change[0.5]).max() for share, one in change.items())
-        if effect.limited and max(off) > KINKED * unit:
+        if _curved(effect) and max(off) > KINKED * unit:
             continue
+        whole, half = (change[share] - change[-share] for share in (0.5, 0.25))
         what = f"{name}: change of the force with the motion against the matrix"
-        close(what, (change[0.5] - change[-0.5]) / unit, expected / unit, LINEAR)
+        close(what, (8 * half - whole) / 3 / unit, expected / unit, LINEAR)
 
 
 def _resistance(name: str, hook: str, matrix: csc_array, ways: list[Floats]) -> None:

@@ -11,7 +11,7 @@ from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, defines
 from nmm.quantity import PLACES, Quantity
 from nmm.testing.claims import claim, finite
-from nmm.testing.effects.forces import check_forces
+from nmm.testing.effects.forces import check_force, check_forces
 
 if TYPE_CHECKING:
     from nmm.formulation import Formulation
@@ -75,16 +75,23 @@ def check_effect(effect: Effect, model: Model, state: State, seed: int = 0) -> N
     """
     name = type(effect).__name__
     kept = _copy(state)
+    if defines(effect, "force"):
+        check_force(effect, name, state, model.manifold.n_unknowns)
+    _declared(effect, name, model, state)
+    _unchanged(name, state, kept)
     check_forces(effect, name, model, state, seed)
     if defines(effect, "carried"):
         _carried(effect, name, state)
-    _declared(effect, name, model, state)
-    for field, before in kept.items():
-        claim(np.array_equal(before, getattr(state, field)), f"{name}: a hook changed the {field}")
+    _unchanged(name, state, kept)
 
 
 def _copy(state: State) -> dict[str, Floats]:
     return {one: getattr(state, one).copy() for one in ("deformation", "velocity", "acceleration")}
+
+
+def _unchanged(name: str, state: State, kept: dict[str, Floats]) -> None:
+    for field, before in kept.items():
+        claim(np.array_equal(before, getattr(state, field)), f"{name}: a hook changed the {field}")
 
 
 def _carried(effect: Effect, name: str, state: State) -> None:

@@ -343,6 +343,33 @@ class Wasteful(Cable):
     pays = 0.98
 
 
+class Stiffening(Lever):
+    """A spring of force ``k (u + u^3 / w^2)``, ``w`` half of the longest motion of the check."""
+
+    way = 1e-4
+    stores = 0.25
+
+    def force(self, state, end):
+        return -1e3 * state.deformation * (1 + (state.deformation / self.way) ** 2)
+
+    def energy(self, state):
+        u = state.deformation
+        return 1e3 * float(np.sum(u**2 / 2 + self.stores * u**4 / self.way**2))
+
+    def matrix(self, state):
+        bent = 1 + 3 * (state.deformation / self.way) ** 2
+        return csc_array(np.diag(1e3 * bent))
+
+    def step_force(self, before, after, span):
+        raise NotImplementedError  # named, so that it counts as nonlinear
+
+
+class Misjudged(Stiffening):
+    """One that stores a hundredth less where it bends."""
+
+    stores = 0.2475
+
+
 class Sponge(Lever):
     """A force that follows the motion the more, the longer the step; its matrix knows no step."""
 
@@ -355,7 +382,8 @@ class Sponge(Lever):
 EFFECTS = {
     "differs after carry(carried())": Forgetful,
     "work less the gain of energy": Idle,
-    "and the loss over the mean force": Wasteful,
+    "and the loss, over the force": Wasteful,
+    "over the force times the way: off": Misjudged,
     "change of the force with the motion": Softer,
     "motion against the matrix": Sponge,
     "off from symmetric": Asymmetric,
@@ -369,7 +397,7 @@ def built(kind):
     return kind(model, np.array([0.0, -9.81])), model, made.start
 
 
-@pytest.mark.parametrize("right", [Lever, Cable])
+@pytest.mark.parametrize("right", [Lever, Cable, Stiffening])
 def test_a_right_spring_is_not_told(right):
     check_effect(*built(right))
 
