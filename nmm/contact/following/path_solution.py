@@ -12,7 +12,7 @@ from nmm.contact.bonds.tied_step import TiedBonds
 from nmm.contact.following.by_parts import follow
 from nmm.contact.following.path_problem import Bent, PathProblem, PathStep
 from nmm.contact.laws.contact_laws import ContactLaws
-from nmm.contact.laws.history_iteration import HistoryIteration
+from nmm.contact.laws.losses import ContactLosses, softening
 from nmm.contact.laws.tractions import ContactForces, contact_forces
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.contact_rows import ContactRows
@@ -106,15 +106,20 @@ class PosedPath:
             history[name][free] = column
         after = replace(contacts, history=history)
         sliding = history["plastic_slip"] - contacts.history["plastic_slip"]
-        iteration = HistoryIteration(self.laws, contacts)
-        iteration.contacts = after
-        loss = iteration.loss(answer, sliding, static=True)
-        between = iteration.beyond_means(answer)
-        told = {"sliding": sliding, "rows": self.rows, "between": between}
-        solved = ContactSolution(after, answer, step.iterations, loss, **told)
+        lost = self._lost(after, answer, sliding)
+        told = {"sliding": sliding, "rows": self.rows, "between": lost.beyond_means()}
+        solved = ContactSolution(after, answer, step.iterations, lost.energy(static=True), **told)
         if self.mixed is not None:
             solved = self.mixed.told(solved, self.found)
         return solved, step.change
+
+    def _lost(self, after: ContactPoints, answer: StepAnswer, sliding: Floats) -> ContactLosses:
+        """Return what contacts went through in a step that ends with the history of ``after``."""
+        laws, start = self.laws, self.contacts
+        stiffness = laws.normal_stiffness(start)
+        before, end = laws.response(start, stiffness), laws.response(after, stiffness)
+        soft = softening(laws, start, before.limits)
+        return ContactLosses(laws, start, after, (before, end), soft, answer, sliding)
 
 
 def _problem(

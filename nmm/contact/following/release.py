@@ -7,8 +7,9 @@ import numpy as np
 from integration.arrays import Bools
 from nmm.contact.bonds.release import released
 from nmm.contact.bonds.turning import beside
-from nmm.contact.laws.contact_laws import AT_ENDS, ContactLaws
+from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.failing_bonds import break_bonds
+from nmm.contact.points.contact_points import AT_ENDS
 from nmm.contact.problem.step_problem import BROKEN
 from nmm.contact.solution.record import ContactRecord, ContactSolution
 

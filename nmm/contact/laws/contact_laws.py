@@ -13,13 +13,10 @@ from nmm.contact.points.kept import of_pairs
 from nmm.contact.problem.step_problem import Limits
 from nmm.interfaces.base import InterfaceLaw
 from nmm.interfaces.history import KEPT, History, HistoryColumn
-from nmm.interfaces.passage import Passage
 from nmm.interfaces.response import InterfaceResponse
 
 Springs = tuple[Floats, Floats, Bools]
 """Normal and shear stiffness (m,) in N/m, and which are a law's own."""
-AT_ENDS = ("gap", "slip", "normal_force", "shear_force")
-"""What contacts have at both ends of a step."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +75,7 @@ class ContactLaws:
         tension, cohesion, friction, rise = (np.zeros(m) for _ in range(4))
         open_share = np.ones(m)
         # Cohesion is lost with the joint: what is found by search has none.
-        area = self._areas(contacts)
+        area = self.areas(contacts)
         for law, index, history in self.by_law(contacts):
             own = law.response(history, _over(stiffness, area)[index])
             tension[index] = _times(own.limits.tension, area[index])
@@ -94,7 +91,7 @@ class ContactLaws:
 
         ``stiffness`` (m,) is that of the whole bonds (N/m). Columns that stay are the same objects.
         """
-        after, spring = dict(contacts.history), _over(stiffness, self._areas(contacts))
+        after, spring = dict(contacts.history), _over(stiffness, self.areas(contacts))
         if TIED in after:  # no spring of whole bonds may be too soft: terms hold them
             spring = np.where(contacts.tied, np.inf, spring)
         for law, index, history in self.by_law(contacts):
@@ -186,30 +183,6 @@ class ContactLaws:
         pressed = (normal * stretch**2)[acts | damped].sum()
         return float(pressed + (shear * contacts.slip**2)[acts].sum()) / 2
 
-    def passages(
-        self, before: ContactPoints, after: ContactPoints
-    ) -> Iterator[tuple[InterfaceLaw, Floats, Passage]]:
-        """Yield each law with the areas (m2) of its joints and what they went through in a step."""
-        areas, springs = self._areas(before), self.springs(before)[:2]
-        laws = zip(self.by_law(before), self.by_law(after), strict=True)
-        for (law, index, start), (_, _, end) in laws:
-            area = areas[index]
-            gap, slip, pull, shear = (
-                (getattr(before, name)[index], getattr(after, name)[index]) for name in AT_ENDS
-            )
-            yield (
-                law,
-                area,
-                Passage(
-                    history=(start, end),
-                    gap=gap,
-                    slip=slip,
-                    pull=(pull[0] / area, pull[1] / area),
-                    shear=(shear[0] / area, shear[1] / area),
-                    stiffness=(springs[0][index] / area, springs[1][index] / area),
-                ),
-            )
-
     @cached_property
     def makes_joints(self) -> Bools:
         """(n,) whether shared edges of each law are followed as joints."""
@@ -249,7 +222,7 @@ class ContactLaws:
         return found
 
     @of_pairs
-    def _areas(self, contacts: ContactPoints) -> Floats:
+    def areas(self, contacts: ContactPoints) -> Floats:
         """Areas (m,) in m2 of joints; zero of what is found by search."""
         return np.where(contacts.is_joint, contacts.length * self.thickness, 0.0)
 

@@ -5,22 +5,18 @@ softening of slope ``h`` against a structure of stiffness ``S`` the changes shri
 iteration: they vanish as long as the structure is stable, and acceleration makes that quick.
 """
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from integration.arrays import Bools, Floats
-from integration.contraction import some
-from nmm.contact.laws.contact_laws import AT_ENDS, ContactLaws
+from nmm.contact.laws.contact_laws import ContactLaws
+from nmm.contact.laws.losses import ContactLosses, softening
 from nmm.contact.laws.tension_compression import AsymmetricSprings
 from nmm.contact.points.contact_points import ContactPoints
-from nmm.contact.problem.coulomb import shear_bound
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem, Verdict
 from nmm.frozen import MadeOnce, with_parts
-from nmm.interfaces.base import InterfaceLaw
 from nmm.interfaces.history import History
-from nmm.interfaces.passage import Passage
 from nmm.solvers.anderson import FixedPoint
 
 MOST = 200
@@ -30,8 +26,6 @@ UNCHANGED, BY_ROUNDING = 1e-9, 1e-7
 no more, because functions depend on one another and rounding is large."""
 LASTING, SHRUNK = 50, 0.5
 """Changes shrink no more where so many solutions leave more than this share of the least before."""
-AT_LIMIT = 1e-6
-"""Shear forces within this share of their limit are at it: rounding of a solution."""
 
 
 class HistoryIteration:
@@ -68,10 +62,7 @@ class HistoryIteration:
     @MadeOnce
     def softening(self) -> Bools:
         """Which contacts are bonds that lose their strength in the course of solutions."""
-        if not self._laws.hold(self.start):
-            return np.zeros(len(self.start), dtype=bool)
-        whole = self.start.tied
-        return self.start.bonded & ~whole & np.isfinite(self.before.limits.tension)
+        return softening(self._laws, self.start, self.before.limits)
 
     @property
     def asymmetric(self) -> AsymmetricSprings | None:
@@ -137,50 +128,12 @@ class HistoryIteration:
         self.contacts = replace(self.contacts, history=history)
         self.response = self._laws.response(self.contacts, self.springs[0])
 
-    def loss(self, answer: StepAnswer, sliding: Floats, static: bool) -> float:
-        """Energy (J) that friction and softening took in the step.
-
-        Bonds that soften took what their law says. Elsewhere the force of a step in time acts all
-        through it. In statics loads grow within a step: what slides from its start does so against
-        the mean of the limits at both ends, what slides later against that at the end. The work of
-        dilation against pressure is not lost.
-        """
-        rubbed = np.abs(answer.shear_force * sliding)
-        if self._laws.evolving:
-            lifted = self.response.rise - self.before.rise
-            rubbed += np.where(self.start.bonded, 0.0, answer.normal_force * lifted)
-        if static:
-            rubbed *= self._mean_share(answer)
-        soft = self.softening
-        if not some(soft):
-            return float(rubbed.sum())
-        taken = (area @ law.dissipated(way) for law, area, way in self._softened(answer))
-        return float(rubbed[~soft].sum() + sum(taken))
-
-    def beyond_means(self, answer: StepAnswer) -> float:
-        """Energy (J) that softening took in the step beyond what mean forces of both ends say."""
-        if not some(self.softening):
-            return 0.0
-        beyond = (
-            area @ (law.dissipated(way) - law.dissipated_by_means(way))
-            for law, area, way in self._softened(answer)
+    def losses(self, answer: StepAnswer, sliding: Floats) -> ContactLosses:
+        """Return what contacts went through in the step."""
+        responses = self.before, self.response
+        return ContactLosses(
+            self._laws, self.start, self.contacts, responses, self.softening, answer, sliding
         )
-        return float(sum(beyond))
-
-    def _softened(self, answer: StepAnswer) -> Iterator[tuple[InterfaceLaw, Floats, Passage]]:
-        """Yield each law with the areas of its bonds that soften, and what these went through."""
-        soft = self.softening
-        ended = {name: getattr(answer, name)[soft] for name in AT_ENDS}
-        after = replace(self.contacts.take(soft), **ended)
-        return self._laws.passages(self.start.take(soft), after)
-
-    def _mean_share(self, answer: StepAnswer) -> Floats:
-        """Mean shear force (m,) of a step of statics over that at its end, where contacts slide."""
-        start, end = self.start, np.abs(answer.shear_force)
-        bound = shear_bound(start.normal_force, start.normal_force != 0, self.before.limits)
-        from_start = np.abs(start.shear_force) >= (1 - AT_LIMIT) * bound
-        mean = (bound + end) / 2
-        return np.divide(mean, end, out=np.ones_like(end), where=from_start & (end > 0))
 
 
 def slid_under_load(problem: StepProblem, answer: StepAnswer, softening: Bools) -> Floats:

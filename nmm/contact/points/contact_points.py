@@ -8,6 +8,9 @@ import numpy as np
 from integration.arrays import Bools, Floats, Ints
 from nmm.interfaces.history import History
 
+AT_ENDS = ("gap", "slip", "normal_force", "shear_force")
+"""What contacts have at both ends of a step."""
+
 
 @dataclass(frozen=True)
 class ContactPoints:

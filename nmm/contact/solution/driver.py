@@ -225,7 +225,8 @@ class _Agreed:
     ) -> ContactSolution:
         """Return the solution as an accepted step from ``start``, with the loss to friction."""
         answer, sliding = self.answer, self.sliding
-        rubbed = self.iteration.loss(answer, sliding, static) + self.posed.loss(start, answer)
+        losses = self.iteration.losses(answer, sliding)
+        rubbed = losses.energy(static) + self.posed.loss(start, answer)
         missed = self.posed.missed(answer)
         loss = found.loss + rubbed
         return with_parts(found, loss=loss, sliding=sliding, rows=rows, missed=missed)

@@ -80,3 +80,20 @@ def test_a_path_that_turns_back_by_small_steps_shows_no_limit_point() -> None:
     bears = pytest.approx(COHESION + FRICTION * PRESSURE, rel=2e-2)
     assert run.summary.status == "failed" or run.summary.failure_factor == bears
     assert min(run.history["load_factor"]) > 0
+
+
+def test_friction_along_a_path_loses_what_dilation_does_not_lift() -> None:
+    """What lifts the weight is not lost: with it friction lost a quarter more."""
+    bond = SHEARED[SHEARED.index('law = "lin') : SHEARED.index("[[blocks]]")]
+    rough = (
+        f'law = "mohr_coulomb"\nfriction_angle = {np.arctan(FRICTION)}\ndilation_angle = 0.1\n'
+        "normal_stiffness = 1e12\nshear_stiffness = 1e12\n"
+    )
+    run = nmm.run(nmm.parse_scene(SHEARED.replace(bond, rough).format(way=10) + LED.format(1)))
+    force, lost = run.history["load_factor"], run.history["friction_loss"]
+    assert force[-1] == pytest.approx(FRICTION * PRESSURE, rel=1e-3)
+    # From the second step on, in which nothing else moves.
+    right = (FRICTION - np.tan(0.1)) * PRESSURE * 8e-4
+    assert lost[-1] - lost[2] == pytest.approx(right, rel=1e-3)
+    work = run.history["external_work"]
+    assert work[-1] - work[2] == pytest.approx(right, rel=1e-3)

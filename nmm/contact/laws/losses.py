@@ -1,0 +1,122 @@
+"""Energy that friction and softening took in a step, from what its contacts went through."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from integration.arrays import Bools, Floats
+from integration.contraction import some
+from nmm.contact.laws.contact_laws import ContactLaws
+from nmm.contact.points.contact_points import AT_ENDS, ContactPoints
+from nmm.contact.problem.coulomb import shear_bound
+from nmm.contact.problem.step_problem import Limits, StepAnswer
+from nmm.frozen import MadeOnce
+from nmm.interfaces.base import InterfaceLaw
+from nmm.interfaces.passage import Passage
+from nmm.interfaces.response import InterfaceResponse
+
+AT_LIMIT = 1e-6
+"""Shear forces within this share of their limit are at it: rounding of a solution."""
+
+
+@dataclass(frozen=True)
+class ContactLosses:
+    """What contacts went through in a step.
+
+    Attributes
+    ----------
+    laws, start
+        Of the contacts, and these at the start.
+    after
+        The contacts with the history at the end.
+    responses
+        Of the laws under the history at both ends.
+    softening
+        (m,) bonds that lose their strength in the course of steps.
+    answer, sliding
+        The solution, and the slip (m,) under load.
+    """
+
+    laws: ContactLaws
+    start: ContactPoints
+    after: ContactPoints
+    responses: tuple[InterfaceResponse, InterfaceResponse]
+    softening: Bools
+    answer: StepAnswer
+    sliding: Floats
+
+    def energy(self, static: bool) -> float:
+        """Energy (J) that friction and softening took.
+
+        Bonds that soften took what their law says. Elsewhere the force of a step in time acts all
+        through it. In statics loads grow within a step: what slides from its start does so against
+        the mean of the limits at both ends, what slides later against that at the end. The work of
+        dilation against pressure is not lost.
+        """
+        rubbed = np.abs(self.answer.shear_force * self.sliding)
+        if self.laws.evolving:
+            before, after = self.responses
+            lifting = self.answer.normal_force * (after.rise - before.rise)
+            rubbed += np.where(self.start.bonded, 0.0, lifting)
+        if static:
+            rubbed *= self._mean_share
+        taken = (area @ dissipated for _, _, area, dissipated in self._softened)
+        return float(rubbed[~self.softening].sum() + sum(taken))
+
+    def beyond_means(self) -> float:
+        """Energy (J) that softening took beyond what mean forces of both ends say."""
+        beyond = (
+            area @ (dissipated - law.dissipated_by_means(passage))
+            for law, passage, area, dissipated in self._softened
+        )
+        return float(sum(beyond))
+
+    @MadeOnce
+    def _softened(self) -> list[tuple[InterfaceLaw, Passage, Floats, Floats]]:
+        """Laws, what their bonds that soften went through, areas (m2), energies taken (J/m2)."""
+        soft = self.softening
+        if not some(soft):
+            return []
+        ended = {name: getattr(self.answer, name)[soft] for name in AT_ENDS}
+        after = replace(self.after.take(soft), **ended)
+        parts = _passages(self.laws, self.start.take(soft), after)
+        return [(law, way, area, law.dissipated(way)) for law, way, area in parts]
+
+    @property
+    def _mean_share(self) -> Floats:
+        """Mean shear force (m,) of a step of statics over that at its end, where contacts slide."""
+        start, end = self.start, np.abs(self.answer.shear_force)
+        bound = shear_bound(start.normal_force, start.normal_force != 0, self.responses[0].limits)
+        from_start = np.abs(start.shear_force) >= (1 - AT_LIMIT) * bound
+        mean = (bound + end) / 2
+        return np.divide(mean, end, out=np.ones_like(end), where=from_start & (end > 0))
+
+
+def softening(laws: ContactLaws, contacts: ContactPoints, limits: Limits) -> Bools:
+    """Return which contacts (m,) are bonds that lose their strength in the course of steps."""
+    if not laws.hold(contacts):
+        return np.zeros(len(contacts), dtype=bool)
+    return contacts.bonded & ~contacts.tied & np.isfinite(limits.tension)
+
+
+def _passages(
+    laws: ContactLaws, before: ContactPoints, after: ContactPoints
+) -> Iterator[tuple[InterfaceLaw, Passage, Floats]]:
+    """Yield each law with what its joints went through in a step, and their areas (m2)."""
+    areas, springs = laws.areas(before), laws.springs(before)[:2]
+    ends = zip(laws.by_law(before), laws.by_law(after), strict=True)
+    for (law, index, start), (_, _, end) in ends:
+        area = areas[index]
+        gap, slip, pull, shear = (
+            (getattr(before, name)[index], getattr(after, name)[index]) for name in AT_ENDS
+        )
+        passage = Passage(
+            history=(start, end),
+            gap=gap,
+            slip=slip,
+            pull=(pull[0] / area, pull[1] / area),
+            shear=(shear[0] / area, shear[1] / area),
+            stiffness=(springs[0][index] / area, springs[1][index] / area),
+        )
+        yield law, passage, area
