@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 # Stiffness over inertia, as a share of the body's largest, that is rounding: its square of 1e-16.
 RIGID = 1e-25
+# Of a square of unit modulus, thickness and area that is strained: stiffness over inertia.
+SQUARE = 12.0
 
 
 @dataclass(frozen=True)
@@ -115,7 +117,8 @@ class Model(ElasticSolid):
 
         One over the root of each unknown's stiffness ``K``. What moves a body without strain has
         none: it counts as if it swung as fast as the body's other unknowns do, by the mean of their
-        ``log (K / M)``, with ``M`` of a density of one.
+        ``log (K / M)``, with ``M`` of a density of one. A rigid body counts as if it swung as fast
+        as a square of its area that can be strained.
         """
         manifold = self.manifold
         stiffness, inertia = self.elastic_stiffness.diagonal(), self.measure.diagonal()
@@ -126,7 +129,10 @@ class Model(ElasticSolid):
         strains = square > RIGID * largest[body]
         number = np.bincount(body[strains], minlength=manifold.n_bodies)
         logs = np.bincount(body[strains], np.log(square[strains]), manifold.n_bodies)
-        mean = np.where(number > 0, np.exp(logs / np.maximum(number, 1)), 0.0)
+        modulus = np.zeros(manifold.n_bodies)
+        np.maximum.at(modulus, manifold.element_body, self.modulus)
+        rigid = SQUARE * self.thickness * modulus / manifold.body_area
+        mean = np.where(number > 0, np.exp(logs / np.maximum(number, 1)), rigid)
         felt = np.where(strains, stiffness, mean[body] * inertia)
         return np.asarray(1 / np.sqrt(np.where(felt > 0, felt, np.inf)))
 

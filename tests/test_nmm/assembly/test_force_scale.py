@@ -35,3 +35,10 @@ def test_unknowns_of_higher_degree_have_a_scale_each():
     found = scale("monomials", 3)
     assert np.isfinite(found).all()
     assert 0 < found.max() < 1e3 * found.min()
+
+
+def test_a_rigid_square_counts_as_one_that_can_be_strained():
+    """12 E / a^2 times M, of its translations and its rotation."""
+    assert scale("rigid", 1) == pytest.approx(
+        1 / np.sqrt([12 * MODULUS, 12 * MODULUS, 2 * MODULUS])
+    )

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import nmm
+from nmm.scene import parse_scene
 from nmm.testing import check_effect_of
 
 FLYING = """
@@ -247,3 +248,54 @@ def test_the_end_on_the_ground_may_be_where_no_cover_reaches(cover):
     run = nmm.run(nmm.parse_scene(hung))
     # The spring's force over its stiffness; the square's own strain is 1e-5 of that.
     assert run.history["monitor:o:uy"][-1] == pytest.approx(-2000 * 9.81 / 1e7, rel=1e-3)
+
+
+SLACK = """
+plane = "strain"
+[materials.m]
+young_modulus = "1 GPa"
+poisson_ratio = 0.2
+density = 1000
+[[blocks]]
+name = "a"
+material = "m"
+vertices = [[0, 0], [2, 0], [2, 1], [0, 1]]
+[[supports]]
+name = "held"
+point = [0, 0]
+fix = ["x", "y"]
+[[springs]]
+name = "slack"
+points = [[2, 0], [2, -1]]
+blocks = ["a", "ground"]
+stiffness = 1e6
+carries = "tension"
+[[springs]]
+name = "tight"
+points = [[1, 1], [1, 2]]
+blocks = ["a", "ground"]
+stiffness = 1e6
+[[loads]]
+name = "down"
+kind = "point"
+point = [2, 1]
+force = [0, -1e3]
+[formulation.cover]
+type = "block"
+functions = "{functions}"
+"""
+
+
+@pytest.mark.parametrize("functions", ["rigid", "rigid_strain"])
+def test_a_spring_that_goes_slack_leaves_its_load_to_the_other(functions):
+    """The load turns the block about a corner, against the one spring that pulls, at half its arm.
+
+    A rigid block has no stiffness to measure forces by: all of them once compared as nothing, and
+    the first iteration, with both springs, was taken for the answer.
+    """
+    run = nmm.run(parse_scene(SLACK.format(functions=functions)))
+    assert run.summary.status == "converged"
+    assert run.history["springs:slack:force"][-1] == 0.0
+    assert run.history["springs:tight:force"][-1] == pytest.approx(2e3, rel=1e-9)
+    # The support's spring is 1e6 times as stiff as its reaction needs: rounding.
+    assert run.history["reaction:held:y"][-1] == pytest.approx(-1e3, rel=1e-6)
