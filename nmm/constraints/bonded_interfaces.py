@@ -14,10 +14,9 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
-from nmm.assembly.state import State
-from nmm.assembly.tractions.donors import across
 from nmm.constraints.imposition import Imposition, Method
-from nmm.constraints.interface import Interface, nearest
+from nmm.constraints.interface import nearest
+from nmm.constraints.laid_springs import free_where, laid_under_stress, stretch_of
 from nmm.constraints.nitsche.linear_matter import method_for
 from nmm.constraints.nitsche.nitsche import Nitsche
 from nmm.constraints.shared_edges import EDGE_ORDER, bonded_stiffness, gauss_interface, shared_edges
@@ -25,8 +24,7 @@ from nmm.constraints.springs import Springs, glue_stiffness, joint_springs
 from nmm.constraints.tied_interfaces import TiedInterfaces
 from nmm.constraints.turned_axes import turning
 from nmm.contact.detection.joints import Joints
-from nmm.effects.base import Instant, Setup
-from nmm.effects.initial.stress_at_start import StressAtStart
+from nmm.effects.base import Setup
 from nmm.errors import FormulationError
 
 if TYPE_CHECKING:
@@ -58,12 +56,13 @@ class BondedInterfaces(TiedInterfaces):
             interface = gauss_interface(model, joints.take(sprung))
             stiffness = spring[sprung][interface.first.piece]
             glue = glue_stiffness(model, interface, part.stiffness)[:, None]
-            tie = joint_springs(interface, np.where(np.isnan(stiffness), glue, stiffness))
-            ties.append(_under_stress(setup, tie) if setup.scene.initial_stresses else tie)
+            ties.append(joint_springs(interface, np.where(np.isnan(stiffness), glue, stiffness)))
         cover = setup.formulation.cover
         if glued.any():
             size = cover.finest if model.manifold.shared_covers else None
             ties += glue_edges(model, joints.take(glued), part, size)
+        if setup.scene.initial_stresses:
+            ties = laid_under_stress(setup, ties)
         made = cls(ties, model.manifold.n_unknowns, turning(setup))
         made.least_cut = _least_cut(model, ties)
         return made
@@ -71,31 +70,16 @@ class BondedInterfaces(TiedInterfaces):
     def follow(self, change: "Change") -> "BondedInterfaces":
         """Return those of the new model; a new block is tied free of stress where it lies."""
         new, state, fresh = type(self).from_setup(change.setup), change.state, change.parentage
-        known = [_Anchors.of(change.old, tie.interface) for tie in self.ties]
+        known = [_Anchors.of(change.old, tie) for tie in self.ties]
         for number, tie in enumerate(new.ties):
             interface = tie.interface
-            own = _Anchors.of(change.new, interface)
-            anchor = own.nearest(known) if known else own.values
+            own = _Anchors.of(change.new, tie)
+            anchor, stretch = np.hsplit(own.nearest(known) if known else own.values, 2)
             arrived = np.any([fresh.new_bodies[side.points.body] for side in interface.sides], 0)
             anchor = np.where(arrived[:, None], interface.motion(state), anchor)
+            tie = free_where(tie, arrived[:, None] | (stretch == 0))
             new.ties[number] = replace(tie, interface=replace(interface, anchor=anchor))
         return new
-
-    def energy(self, state: State) -> float:
-        return super().energy(state) - self._laid_energy(state)
-
-    def received_stress_energy(self, state: State) -> float:
-        """See `Effect.received_stress_energy`; with the initial stress that springs carry."""
-        return super().received_stress_energy(state) + self._laid_energy(state)
-
-    def _laid_energy(self, state: State) -> float:
-        """The part (J) of the energy of springs that is linear in the way from where they lay."""
-        total = 0.0
-        for tie, jump in self._each(state, Instant.of(state)):  # a handful of ties
-            anchor = np.broadcast_to(tie.interface.anchor, jump.shape)
-            if anchor.any():
-                total += float(np.sum((jump + anchor) * tie.point_forces(state, anchor)))
-        return total
 
     @property
     def about(self) -> str:
@@ -115,7 +99,7 @@ class BondedInterfaces(TiedInterfaces):
 
 @dataclass(frozen=True)
 class _Anchors:
-    """Stress-free jumps at points of an interface, independent of which side is the first.
+    """Stress-free jumps at points of a tie, independent of which side is the first.
 
     Attributes
     ----------
@@ -124,7 +108,7 @@ class _Anchors:
     position
         (m, 2) reference place (m).
     values
-        (m, 2) jumps, of the lower region less the other (m).
+        (m, 4) jumps, of the lower region less the other, and the stretch of springs (m).
     sign
         (m, 1) -1 where the first side of the interface is the other.
     """
@@ -135,16 +119,18 @@ class _Anchors:
     sign: Floats
 
     @classmethod
-    def of(cls, model: Model, interface: Interface) -> Self:
-        """Read those of an interface."""
+    def of(cls, model: Model, tie: Imposition) -> Self:
+        """Read those of a tie."""
+        interface = tie.interface
         of_sides = [model.manifold.element_region[side.elements] for side in interface.sides]
         regions = np.stack(of_sides, axis=1)
         sign = np.where(regions[:, :1] > regions[:, 1:], -1.0, 1.0)
-        values = sign * np.broadcast_to(interface.anchor, (len(interface), 2))
+        anchor = np.broadcast_to(interface.anchor, (len(interface), 2))
+        values = sign * np.hstack([anchor, stretch_of(tie)])
         return cls(np.sort(regions, axis=1), interface.first.position, values, sign)
 
     def nearest(self, known: Sequence[Self]) -> Floats:
-        """Jumps (m, 2) of the first sides, at the nearest known points between the same regions.
+        """Values (m, 4) of the first sides, at the nearest known points between the same regions.
 
         Where none is known between them it is zero.
         """
@@ -192,13 +178,3 @@ def glue_edges(model: Model, joints: Joints, part: "Glue", size: float | None) -
         )
     stiffness = glue_stiffness(model, interface, part.stiffness) * interface.area
     return [tie, Springs(interface, np.where(free, stiffness, 0.0))]
-
-
-def _under_stress(setup: Setup, tie: Springs) -> Springs:
-    """Return springs that carry the initial stress of the ground: its mean traction."""
-    ground, interface = StressAtStart.declared(setup), tie.interface
-    a, b = (ground.at(setup.model, side.elements, side.position) for side in interface.sides)
-    assert interface.first.normal is not None
-    force = interface.area[:, None] * across((a + b)[:, :3] / 2, interface.first.normal)
-    anchor = np.asarray(np.linalg.solve(tie.stiffness, force[:, :, None])[:, :, 0], dtype=float)
-    return replace(tie, interface=replace(interface, anchor=anchor))

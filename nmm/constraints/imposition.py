@@ -82,7 +82,11 @@ class Imposition(ABC):
         return np.zeros((len(self.interface), 2))
 
     def energy(self, state: State, jump: Floats) -> float:
-        """Energy stored (J)."""
+        """Energy stored (J), less `laid_energy`."""
+        return 0.0
+
+    def laid_energy(self, state: State, jump: Floats) -> float:
+        """Energy (J) of forces with which it was laid, a line in the jump."""
         return 0.0
 
     def gap_volume(self, state: State, jump: Floats, k: int) -> Floats:

@@ -6,6 +6,7 @@ from typing import ClassVar, Self
 import numpy as np
 
 from integration.arrays import Floats
+from integration.contraction import contract
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.constraints.imposition import Imposition, Method
@@ -30,9 +31,13 @@ class Springs(Imposition):
     ----------
     stiffness
         (m,) N/m, or tensors (m, 2, 2) that turn by the mean of both sides.
+    stretch
+        (m, 2) by how far they are stretched as they are laid, which turns like them (m); None is
+        not at all.
     """
 
     stiffness: Floats
+    stretch: Floats | None = None
 
     words: ClassVar[str] = "springs"
     reads: ClassVar[frozenset[str] | None] = frozenset({"stiffness"})
@@ -59,12 +64,28 @@ class Springs(Imposition):
         return self.interface.spread(state, self.point_forces(state, jump))
 
     def point_forces(self, state: State, jump: Floats) -> Floats:
-        if self.stiffness.ndim == 1:
-            return np.asarray(-(self.stiffness[:, None] * jump))
-        return -self._pulled(state, jump[:, :, None])[:, :, 0]
+        found = self._against(state, jump)
+        return found if self.stretch is None else found + self._laid(state)
 
     def energy(self, state: State, jump: Floats) -> float:
-        return -0.5 * float((jump * self.point_forces(state, jump)).sum())
+        return -0.5 * float((jump * self._against(state, jump)).sum())
+
+    def laid_energy(self, state: State, jump: Floats) -> float:
+        return 0.0 if self.stretch is None else -float((jump * self._laid(state)).sum())
+
+    def _laid(self, state: State) -> Floats:
+        """Forces (m, 2) in N with which springs are laid, as these have turned since."""
+        assert self.stretch is not None
+        if self.interface.second is None:
+            return self._against(state, -self.stretch)
+        turned = contract("mij,mj->mi", self.interface.turned(state), self.stretch)
+        return self._against(state, -turned)
+
+    def _against(self, state: State, way: Floats) -> Floats:
+        """Forces (m, 2) in N against ways (m, 2) of the first side."""
+        if self.stiffness.ndim == 1:
+            return np.asarray(-(self.stiffness[:, None] * way))
+        return -self._pulled(state, way[:, :, None])[:, :, 0]
 
     @property
     def turns(self) -> bool:

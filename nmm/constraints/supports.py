@@ -13,6 +13,7 @@ from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.constraints.imposition import Imposition, Method, support_method
 from nmm.constraints.interface import Interface, nearest
+from nmm.constraints.laid_springs import free_where, laid_under_stress, stretch_of
 from nmm.constraints.nitsche.linear_matter import method_for
 from nmm.constraints.nitsche.nitsche import Nitsche
 from nmm.constraints.nitsche.volume_lift import sharing
@@ -72,6 +73,8 @@ class Supports(TiedInterfaces):
         along = method.impose(setup.model, [interfaces[i] for i in edges])
         for i, support in zip(edges, along, strict=True):
             found[i] = support
+        if scene.initial_stresses:
+            found = laid_under_stress(setup, found)
         n_unknowns, in_time = setup.model.manifold.n_unknowns, scene.inertia is not None
         turns = turning(setup) if _lets_turn(setup.model, interfaces) else None
         return cls(found, n_unknowns, setup.start, in_time, turns, setup.model)
@@ -87,15 +90,18 @@ class Supports(TiedInterfaces):
         for number, tie in enumerate(new.ties):
             interface, before = tie.interface, known.get(tie.interface.name)
             anchor = interface.motion(state)
+            stretch = np.zeros_like(anchor)
             if before is not None:
                 old, jump = before
                 positions = interface.first.position, old.interface.first.position
+                stretch = nearest(*positions, stretch_of(old))
                 had = np.broadcast_to(old.interface.anchor, jump.shape)
                 anchor = nearest(*positions, had)
                 rate, past = _rate(tie), _rate(old)
                 if rate is not None and past is not None:
                     share = 1 - nearest(*positions, past) / rate
                     anchor = anchor + share * nearest(*positions, jump)
+            tie = free_where(tie, stretch == 0)
             new.ties[number] = replace(tie, interface=replace(interface, anchor=anchor))
         return new
 
@@ -150,9 +156,11 @@ class Supports(TiedInterfaces):
 
         What is driven at the start of statics is driven there from nothing in the first step, and
         the reaction grows with it. Where loose blocks were brought to rest under the whole load
-        what they stand on has gone with them: it is driven from where they stand.
+        what they stand on has gone with them: it is driven from where they stand. Half of the
+        work of a stress that acts there is withdrawn as if it were driven already: it goes back.
         """
-        total, jumps = 0.0, self._jumps(before, Instant.of(before))
+        total = self.received_stress_energy(before) / 2
+        jumps = self._jumps(before, Instant.of(before))
         for number, start, end in self._driven(before, after):
             if jumps[number].any():
                 first, last = self._ends(number, before, after)

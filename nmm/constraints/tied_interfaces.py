@@ -195,8 +195,13 @@ class TiedInterfaces(Effect):
         return stored + self.received_stress_energy(state)
 
     def received_stress_energy(self, state: State) -> float:
-        """See `Effect.received_stress_energy`: minus their tractions times the jumps."""
-        return -self._felt(state, Instant.of(state)) if self._stresses else 0.0
+        """See `Effect.received_stress_energy`: minus their tractions times the jumps.
+
+        With that of the initial stress that springs carry.
+        """
+        now = Instant.of(state)
+        laid = sum(tie.laid_energy(state, jump) for tie, jump in self._each(state, now))
+        return laid - (self._felt(state, now) if self._stresses else 0.0)
 
     def work(self, before: State, after: State) -> float:
         """Work (J) of these stresses as they change, on the mean jump of both ends of the step."""

@@ -396,6 +396,29 @@ degree = 1
 """
 )
 
+LAID = (
+    GLUED.replace("[loading]\nuntil = 1.0\n", "")
+    .replace(
+        '[formulation.supports]\nmethod = "lagrange"', '[formulation.supports]\nmethod = "penalty"'
+    )
+    .replace('[formulation.glue]\nmethod = "lagrange"', '[formulation.glue]\nmethod = "spring"')
+    .replace("increment = 0.1", "increment = 0.5")
+    + """
+[[stages]]
+name = "in place"
+[[stages]]
+name = "let go"
+supports = ["wall"]
+cover = { size = 0.3 }
+[[stages]]
+name = "held again"
+supports = ["wall", "driven"]
+[[stages]]
+name = "coarser"
+cover = { size = 0.5 }
+"""
+)
+
 STAGED = """
 title = "stages"
 plane = "stress"
@@ -951,6 +974,7 @@ SCENES = {
     "plastic by error": by_error(PLASTIC_MOVING),
     "classical update": CLASSICAL,
     "glued": GLUED,
+    "laid springs": LAID,
     "stages": STAGED,
     "released": RELEASED,
     "shaken": SHAKEN.replace("{duration}", "0.03").replace("{stages}", ""),
