@@ -121,6 +121,9 @@ class _WaysToForces:
         steer = self.tools.options.springs
         first = replace(budget, factors=min(budget.factors, steer.first))
         found = self.alternated(increment, first)
+        # Cut short near its end, it ends sooner than a path from afar.
+        if found.size <= self.tools.options.ways.nearness and found.solves >= first.solves:
+            found = found.then(self.alternated(found.increment, first))
         if found.size <= self.tolerance:
             return found
         return self.inside(found, (steer.crossover, self.tolerance), first)
@@ -138,12 +141,13 @@ class _WaysToForces:
         sides = Complementarity(springs, exact, 1 / springs.stiffness)
         start = inside_start(sides, tools)
         for balance in goals:
-            method = InteriorPoint(sides, tools)
+            method, before = InteriorPoint(sides, tools), best.size
             if best.size > balance:
                 goal = Goal(max(balance, self.tolerance))
                 best = best.then(method.run(start, rest.interior, goal))
                 start = method.reached if best.size <= balance else start
-            if best.size <= self.tolerance:
+            # From where the alternation ended it would only do the same again.
+            if best.size <= self.tolerance or best.size == before > balance:
                 break
             best = best.then(self.alternated(best.increment, rest))
             tools.memory.ways.finishes = best.size <= self.tolerance

@@ -24,6 +24,7 @@ from nmm.contact.laws.history_iteration import HistoryIteration
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.contact_rows import ContactRows
 from nmm.contact.problem.coulomb import shear_bound
+from nmm.contact.problem.row_products import pushed
 from nmm.contact.problem.step_problem import SLIDE, StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform, solve_through
 from nmm.contact.solution.posed_step import PosedStep, Posing
@@ -33,6 +34,7 @@ from nmm.contact.solution.untouched import StepsWithoutContacts
 from nmm.errors import SolveError
 from nmm.frozen import with_parts
 from nmm.solvers.linear import LinearSolver
+from nmm.solvers.unchecked import product
 
 
 class ContactSolver:
@@ -174,6 +176,15 @@ class ContactSolver:
         normal = np.where(closed, problem.normal_stiffness, 0.0)
         shear = np.where(held, problem.shear_stiffness, 0.0)
         return self.memory.pattern_of(problem).matrix(problem, normal, shear)
+
+    def unbalanced(self) -> Floats | None:
+        """Return the force (n,) that the last solution left out of balance; None without one."""
+        if self.last is None:
+            return None
+        problem, answer = self.last
+        rows = problem.normal_rows, problem.tangent_rows
+        carried = pushed(*rows, answer.normal_force, answer.shear_force)
+        return problem.force - product(problem.matrix, answer.increment) - carried
 
     def condition(self, solver: LinearSolver) -> float | None:
         """Estimate the condition number of the last system with the springs that acted in it."""

@@ -36,6 +36,27 @@ def anchors(model: Model) -> csc_array:
     return csc_array(ANCHOR * replace(model, density=model.modulus / area).mass)
 
 
+def _stiffness(model: Model) -> Floats:
+    """Return the stiffness (B,) of the anchor of each body against its motion (N/m)."""
+    manifold = model.manifold
+    strong = np.bincount(manifold.element_body, model.modulus * manifold.elements.areas)
+    return ANCHOR * model.thickness * strong / manifold.body_area
+
+
+def too_weak(stepper: "Stepper") -> bool:
+    """Whether no anchors could balance what the last solution with contact left.
+
+    Some body is pushed by more than its anchor carries over the size of the domain.
+    """
+    model, contact = stepper.model, stepper.plan.contact
+    left = None if contact is None else contact.solver.unbalanced()
+    # Conditions that multipliers hold beside contact leave fewer unknowns, which are not judged.
+    if left is None or len(left) != model.manifold.n_unknowns:
+        return False
+    push = np.asarray(model.manifold.rigid_modes.T @ left).reshape(-1, 3)
+    return bool((np.hypot(push[:, 0], push[:, 1]) > _stiffness(model) * stepper.size).any())
+
+
 def unheld(stepper: "Stepper", state: State, names: Sequence[str], balanced: bool) -> list[str]:
     """Say which blocks are unsupported, and how they could move; no load does if ``balanced``.
 
@@ -62,12 +83,8 @@ def unopposed(stepper: "Stepper", at: State | None = None) -> dict[int, Floats]:
     stiffness = _against_rigid_motions(stepper)
     if stiffness is None:
         return {}
-    model, manifold = stepper.model, stepper.model.manifold
-    radius, areas = np.sqrt(manifold.body_area), manifold.elements.areas
-    strong = np.bincount(manifold.element_body, model.modulus * areas, minlength=len(radius))
-    # Of Young's modulus times thickness: as stiff as `anchors` are.
-    soft = ANCHOR * model.thickness * strong[:, None] / (radius[:, None] ** [2, 2, 0])
-    soft = soft.ravel()
+    model, radius = stepper.model, np.sqrt(stepper.model.manifold.body_area)
+    soft = (_stiffness(model)[:, None] * radius[:, None] ** [0, 0, 2]).ravel()
     held = soft.copy()
     if at is not None:
         held[2::3] += _turned_back(stepper, at)

@@ -19,7 +19,7 @@ from nmm.effects.base import Instant
 from nmm.integrators.shi import Shi
 from nmm.stepping.bounds.static_theorem import carried
 from nmm.stepping.drive.equilibrium.pace import Pace
-from nmm.stepping.drive.equilibrium.settling import COLLAPSE, anchored
+from nmm.stepping.drive.equilibrium.settling import COLLAPSE, anchored, beyond_anchors
 from nmm.stepping.step.anchors import block_name, largest_mover
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
@@ -209,6 +209,8 @@ def _holds(stepper: Stepper, state: State, end: Instant) -> bool:
     The matrix knows nothing of what the turn of forces alone holds, as it does a block that hangs.
     """
     alone = stepper.attempt(state, end, None)
+    if beyond_anchors(stepper, alone):
+        return False
     if not (alone.converged and alone.motion <= SLOW * stepper.size):
         start = stepper.remember()
         alone = anchored(stepper, state, end, "stop").attempt

@@ -10,7 +10,7 @@ import numpy as np
 
 from nmm.assembly.state import State
 from nmm.effects.base import Instant
-from nmm.stepping.step.anchors import unopposed
+from nmm.stepping.step.anchors import too_weak, unopposed
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
 
@@ -127,7 +127,14 @@ def may_be_loose(stepper: Stepper, found: "SettledStep") -> bool:
     """
     attempt, solved = found.attempt, found.attempt.solved
     stopped = attempt.converged or attempt.yields or (solved is not None and solved.stopped)
-    return stepper.plan.contact is not None and not stepper.anchored and not stopped
+    touches = stepper.plan.contact is not None
+    return touches and not stepper.anchored and not stopped and not beyond_anchors(stepper, attempt)
+
+
+def beyond_anchors(stepper: Stepper, attempt: Attempt) -> bool:
+    """Whether a search that set no part free left more out of balance than anchors carry."""
+    solved = attempt.solved
+    return solved is not None and solved.answer.verdict.code == "stalled" and too_weak(stepper)
 
 
 def is_adrift(stepper: Stepper) -> bool:
