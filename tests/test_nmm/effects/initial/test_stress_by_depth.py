@@ -77,6 +77,14 @@ def test_ground_under_the_stress_of_its_weight_does_not_move(cover, far):
     assert np.abs(run.displacement).max() < 1e-12
 
 
+@pytest.mark.parametrize("law", ["", COHESIVE])
+def test_rounding_of_ground_that_does_not_move_is_no_change_of_it(law):
+    """It was told as 1e-2 and 5e-2 of displacements of 1e-15 m."""
+    run = nmm.run(ground("triangles", 1e5, ratio=0.6, law=law, method="lagrange"))
+    assert np.abs(run.displacement).max() < 1e-12
+    assert list(run.summary.warnings) == []
+
+
 def test_its_stress_is_depth_times_weight_and_the_ratio_of_it():
     run = nmm.run(ground("linear quads", ratio=0.8))
     frame = run.frames[-1]
