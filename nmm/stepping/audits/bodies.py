@@ -26,15 +26,14 @@ JOINTS_GIVE = (
 
 def bodies(run: EndedRun) -> Findings:
     """Audit overlap, area and momentum."""
-    model, deep = run.stepper.model, run.recorder.totals.overlap
+    model, totals = run.stepper.model, run.recorder.totals
     contact = run.stepper.plan.contact
     if contact is not None:
-        size = float(np.sqrt(model.manifold.body_area.min()))
         yield AuditFinding(
             "penetration",
-            deep / size,
-            f"bodies overlap by up to {deep:.3g} m, {percent(deep / size)} of the smallest: "
-            f"{run.recorder.totals.deepest}",
+            totals.overlap,
+            f"bodies overlap by up to {percent(totals.overlap)} of the smaller one: "
+            f"{totals.deepest}",
             _held_apart(contact),
             mild=contact.laws.stiff,
         )

@@ -102,8 +102,8 @@ THRESHOLDS: dict[str, Threshold] = {
         "all",
     ),
     "penetration": Threshold(
-        "largest overlap, measured where steps end, over the size (root of the area) of the "
-        "smallest body",
+        "largest overlap of two bodies, measured where steps end, over the size (root of the area) "
+        "of the smaller",
         2e-3,
         0.1,
         "contact; it only warns where an interface names its stiffness",

@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from integration.arrays import Floats
 from integration.contraction import largest, least
 from nmm.assembly.state import State
 from nmm.frozen import with_parts
@@ -23,7 +24,7 @@ def tallied(
     from nmm.contact.detection.tolerances import MIDPOINT_GAPS
     from nmm.contact.problem.contact_state import NAMES
 
-    contact, deepest, after = stepper.plan.contact, totals.deepest, attempt.state
+    contact, after = stepper.plan.contact, attempt.state
     assert contact is not None
     gap = contacts.distance
     # Of joints that came apart only lines are left, of which bodies that turn lie on either side.
@@ -37,15 +38,19 @@ def tallied(
         surface = contact.partners.surface(after)
         gap[acts] = contact.geometry.gaps(contacts.take(acts), before, after, surface)
         ends = -float(least(gap, initial=0.0))
-    if ends > totals.overlap:
-        deepest = _pair(stepper, contacts, int(gap.argmin()), after.time)
+    share, deepest = totals.overlap, totals.deepest
+    if ends > share * np.sqrt(stepper.model.manifold.body_area.min()):
+        over = _over_smaller(stepper, contacts, gap)
+        at = int(over.argmax())
+        if over[at] > share:
+            share, deepest = float(over[at]), _deepest(stepper, contacts, at, gap[at], after.time)
     tally = np.bincount(contacts.state, minlength=len(NAMES)).tolist()
     counts = dict(zip(NAMES, tally, strict=True)) | {"broken": contact.broken_bonds}
     totals = with_parts(
         totals,
         stiffest=max(totals.stiffest, contact.solver.stiffest or 0.0),
         penetration=max(totals.penetration, overlap),
-        overlap=max(totals.overlap, ends),
+        overlap=share,
         deepest=deepest,
         largest={name: max(totals.largest.get(name, 0), n) for name, n in counts.items()},
         counts=counts,
@@ -53,11 +58,19 @@ def tallied(
     return totals, overlap
 
 
-def _pair(stepper: Stepper, contacts: "ContactPoints", at: int, time: float) -> str:
-    """Say between which blocks a contact point is, and when it was so."""
+def _over_smaller(stepper: Stepper, contacts: "ContactPoints", gap: Floats) -> Floats:
+    """Return overlaps (m,) over the size of the smaller of both bodies, the root of its area."""
+    manifold = stepper.model.manifold
+    owner = manifold.boundary.body
+    size = np.sqrt(manifold.body_area)
+    return np.asarray(-gap / np.minimum(size[owner[contacts.edge_a]], size[owner[contacts.edge_b]]))
+
+
+def _deepest(stepper: Stepper, contacts: "ContactPoints", at: int, gap: float, time: float) -> str:
+    """Say how deep a contact point lies, between which blocks, and when it was so."""
     made = stepper.discretisation
     owner = made.model.manifold.boundary.body
     bodies = owner[[contacts.edge_a[at], contacts.edge_b[at]]]
     pair = [block_name(made.model, body, made.setup.region_name) for body in bodies]
     when = f" at {time:.4g} s" if "inertia" in made.plan.effects else ""
-    return " and ".join(pair) + when
+    return f"{-gap:.3g} m between {pair[0]} and {pair[1]}{when}"

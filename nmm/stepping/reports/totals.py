@@ -23,9 +23,9 @@ class Totals:
         Largest relative out-of-balance force, overlap (m) that forces go with, and stiffness of a
         contact (N/m).
     overlap
-        Largest overlap of bodies measured where steps end (m).
+        Largest overlap of bodies where steps end, over the size (root of the area) of the smaller.
     deepest
-        Which bodies overlapped most, and when, in words; empty before any did.
+        How deep that was, of which bodies, and when, in words; empty before any overlapped.
     largest, counts
         Contact points in each state: most of all steps, and after the last.
     watch

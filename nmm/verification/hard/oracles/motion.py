@@ -127,7 +127,8 @@ def overlap(points: Floats, found: "Run") -> float:
     across = diameters(elements)
     size = np.maximum(shapely.area(shapes), THINNEST * across**2)
     measured = found.summary.audits.get("penetration", 0.0)
-    deep = measured * float(np.sqrt(found.manifold.body_area.min()))
+    area = found.manifold.body_area[body]
+    deep = measured * np.sqrt(np.minimum(area[one], area[other]))
     told = deep * np.minimum(across[one], across[other])
     untold = np.maximum(shared - told, 0.0)
     return float((untold / np.minimum(size[one], size[other])).max())

@@ -97,6 +97,28 @@ def test_soft_springs_of_contact_are_told_by_the_overlap():
     assert " s; raise" in told
 
 
+@pytest.mark.parametrize(("pressed", "area"), [("plate", 1.0), ("chip", 1e-6)])
+def test_overlap_counts_in_the_size_of_the_smaller_of_both_bodies(pressed, area):
+    # A chip of a millimetre on one floor, a plate of a metre on another, one of them pressed.
+    side, at = np.sqrt(area), {"plate": 0.0, "chip": 3.0}[pressed]
+    force, modulus, penalty = 1e4 * side, 1e6, 2.0
+    tables = [
+        text.material("a", modulus, 0.0),
+        text.interface("any", 0.0),
+        text.box("floor", (-1, -1), (5, 1), "a"),
+        text.box("plate", (0, 0), (1, 1), "a"),
+        text.box("chip", (3, 0), (1e-3, 1e-3), "a"),
+        text.held("floor"),
+        text.pulled_edge("press", [(at, side), (at + side, side)], (0, -force / side)),
+    ]
+    found = run(
+        text.scene('plane = "stress"\n[contact]\n', tables), contact={"normal_penalty": penalty}
+    )
+    # Half the force on each of two springs of `normal_penalty` times Young's modulus (N/m).
+    overlap = force / 2 / (penalty * modulus)
+    assert found.audits["penetration"] == pytest.approx(overlap / side, rel=1e-3)
+
+
 @pytest.mark.parametrize("enforcement", ["penalty", "cone"])
 def test_a_joint_that_gives_is_told_by_its_own_stiffness(enforcement):
     soft = DROP.replace("friction_angle", "normal_stiffness = 5e6\nfriction_angle")
@@ -164,7 +186,7 @@ def test_a_path_is_told_to_matter_where_what_slides_rubs(friction, told):
         [
             text.material("a", 1e9, 0.0, 2000.0),
             text.interface("any", float(np.degrees(friction))),
-            text.box("floor", (-1, -1), (4, 1), "a"),
+            text.box("floor", (-1, -1), (5, 1), "a"),
             text.box("b", (0, 0), (1, 1), "a"),
             text.held("floor"),
             '[[supports]]\nname = "push"\nsegment = [[0, 0], [0, 1]]\nblock = "b"\nfix = ["x"]\n'
