@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Self
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats
 from nmm.assembly.kept import KeptOfArray
-from nmm.assembly.matter import SWELLING, Matter
+from nmm.assembly.laws_at_points import SWELLING
+from nmm.assembly.matter import Matter
 from nmm.assembly.state import State
 from nmm.diffusion.course import FieldCourse
 from nmm.diffusion.field_effect import FieldEffect, course_of

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.assembly.matter import INITIAL, STRESS, SWELLING, Matter
+from nmm.assembly.laws_at_points import INITIAL, STRESS, SWELLING
+from nmm.assembly.matter import Matter
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressPoints, nearest

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.matter import STRESS, SWELLING
+from nmm.assembly.laws_at_points import STRESS, SWELLING
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.solvers.unchecked import product
