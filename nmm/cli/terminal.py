@@ -133,4 +133,4 @@ def console() -> "Console":
     """Return the console; long lines are left to the terminal, so that paths can be copied."""
     from rich.console import Console
 
-    return Console(soft_wrap=True)
+    return Console(soft_wrap=True, emoji=False)  # names have colons: monitor:top:ux

@@ -1,6 +1,6 @@
 """What a scene and a formulation must not be together, and what a run of both could not tell."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import fields
 from math import inf
 from typing import TYPE_CHECKING
@@ -93,6 +93,22 @@ def known_quantities(scene: "Scene") -> list[str]:
     return [*numbers, *COLUMNS, *columns]
 
 
+def may_have_column(scene: "Scene", column: str, known: Sequence[str]) -> bool:
+    """Whether a part that a scene names may give a column that is not among the ``known`` ones.
+
+    Such are those of effects with none among these, and all where an output is of one's own.
+    """
+    from nmm.model.called_for import called_for
+
+    if scene.output is not None and any(":" in one for one in scene.output.quantities):
+        return True
+    acting = {*scene.effects, *(name for name, wanted in called_for(scene).items() if wanted)}
+    first, _, rest = column.partition(":")
+    if first == "energy":
+        return rest in acting
+    return bool(rest) and first in acting and not any(one.startswith(f"{first}:") for one in known)
+
+
 def _is_number(annotation: str) -> bool:
     return any(word in ("int", "float") for word in annotation.split(" | ")) or annotation in (
         "<class 'int'>",
@@ -150,8 +166,8 @@ def _chosen(scene: "Scene", formulation: "Formulation") -> Iterator[Fault]:
 def _references(scene: "Scene") -> Iterator[Fault]:
     known = known_quantities(scene) if scene.references else []
     for index, item in enumerate(scene.references):
-        if item.quantity not in known:
+        name = item.quantity
+        if name not in known and not may_have_column(scene, name, known):
             place = scene.source.place("reference", index, "quantity")
             expected = "a number of the summary or a column of the history"
-            remedy = suggestion(item.quantity, known)
-            yield Fault(place, f'"{item.quantity}"', expected, remedy)
+            yield Fault(place, f'"{name}"', expected, suggestion(name, known))

@@ -17,6 +17,7 @@ from nmm.cli.app import app
 from nmm.results import read_run
 from nmm.results.viewing.paraview import write_paraview
 from nmm.scene.read import build_scene
+from nmm.study.cases.quantities import check_quantity_name, quantity
 from nmm.testing import check_effect_of, check_moved_effect
 from nmm.verification.hard.cases.transforms import shifted
 
@@ -175,6 +176,33 @@ def test_a_builtin_effect_has_no_table_of_ones_own():
     text = RAFT.read_text().replace('"foundation:Winkler"', '"gravity"', 1)
     with pytest.raises(nmm.NmmError, match="built-in effects have keys of their own"):
         nmm.run(nmm.parse_scene(text), allow_code=CODE)
+
+
+@pytest.mark.parametrize(
+    ("name", "known"),
+    [
+        ("ground:settlement", True),
+        ("max:ground:reaction", True),
+        ("energy:friction", True),
+        ("grund:settlement", False),
+        ("energy:grund", False),
+        ("settlement", False),
+    ],
+)
+def test_columns_of_an_effect_may_be_asked_for_before_a_run(name, known):
+    scene = nmm.parse_scene(RAFT.read_text().partition("[output]")[0])
+    if known:
+        check_quantity_name(scene, name)
+        return
+    with pytest.raises(nmm.NmmError, match=name):
+        check_quantity_name(scene, name)
+
+
+def test_columns_of_an_output_of_ones_own_are_those_that_it_gives(done):
+    check_quantity_name(nmm.read_scene(RAFT), "largest_tilt")
+    assert quantity(done, "largest_tilt") == pytest.approx(TILT, rel=1e-12)
+    with pytest.raises(nmm.NmmError, match=r"largest_tlt: expected .*largest_tilt"):
+        quantity(done, "largest_tlt")
 
 
 def test_quantities_of_ones_own_are_drawn_by_name(done):

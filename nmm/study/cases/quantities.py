@@ -10,6 +10,8 @@ from collections.abc import Mapping
 from dataclasses import fields
 from typing import TYPE_CHECKING, Protocol
 
+import numpy as np
+
 from integration.arrays import Floats
 from nmm.errors import Fault, NmmError
 from nmm.results.summary import Summary
@@ -54,8 +56,10 @@ def quantity(run: Measured, name: str) -> float:
 
 
 def _column(run: Measured, name: str) -> Floats:
+    if not run.history:
+        return np.array([math.nan])  # no step was accepted
     if name not in run.history:
-        known = ", ".join(run.history) or "none, as no step was accepted"
+        known = ", ".join(run.history)
         raise NmmError(
             f"quantity {name}: expected a number of the summary or a column of the history "
             f"({known}): correct the name, or add a monitor to the scene"
@@ -66,15 +70,18 @@ def _column(run: Measured, name: str) -> Floats:
 def check_quantity_name(scene: "Scene", name: str) -> None:
     """Refuse a name that no run of a scene has, before any is made.
 
+    Columns of parts that are known as they are built are looked for after the run (`quantity`).
+
     Raises
     ------
     NmmError
         With the names there are.
     """
-    from nmm.model.consistency import known_quantities
+    from nmm.model.consistency import known_quantities, may_have_column
 
     known = ["energy", *known_quantities(scene)]
     reduction, _, column = name.partition(":")
-    if (column if reduction in _REDUCED else name) not in known:
+    sought = column if reduction in _REDUCED else name
+    if sought not in known and not may_have_column(scene, sought, known):
         expected = "a number of the summary or a column of the history, or max: or min: of one"
         raise NmmError(Fault("quantity", f'"{name}"', expected, suggestion(name, known)))

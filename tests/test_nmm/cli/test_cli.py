@@ -10,6 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 from nmm.cli.app import app
+from nmm.cli.terminal import console
 from nmm.results import RunFolder, read_run
 from nmm.shipped import example, starter
 
@@ -91,6 +92,11 @@ def test_a_run_is_exported_for_paraview_afterwards(finished, tmp_path):
     opened = result.stdout.split()
     assert opened[0] == f"{out}/paraview/blocks.pvd"
     assert all(Path(file).exists() for file in opened)
+
+
+def test_names_between_colons_are_printed_as_they_are(capsys):
+    console().print("monitor:top:ux")
+    assert capsys.readouterr().out == "monitor:top:ux\n"
 
 
 def test_a_run_is_compared_with_the_references_of_its_scene(finished):

@@ -68,6 +68,16 @@ def test_a_quantity_that_no_run_has_is_refused_before_the_run(tmp_path, bar_text
     assert '"energy"' in result.output.replace("'", '"')
 
 
+def test_publishing_a_run_without_a_step_says_how_it_ended(tmp_path):
+    slides = (ROOT / "examples/published_case/slide/scene.toml").read_text()
+    (tmp_path / "slide.toml").write_text(slides.replace("[inertia]", ""))
+    words = ("--quantity", "energy", "--out", tmp_path / "case")
+    result = call("publish", tmp_path / "slide.toml", *words)
+    assert result.exit_code == 1
+    told = " ".join(result.output.split())
+    assert "quantity energy: the run has none (no equilibrium of loose blocks" in told
+
+
 def test_a_value_that_is_missed_gives_exit_code_1(folder):
     path = folder / "expected.toml"
     value = tomllib.loads(path.read_text())["values"][0]["value"]
