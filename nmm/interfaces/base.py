@@ -67,6 +67,11 @@ class InterfaceLaw(ABC):
         """Whether shared edges are followed as joints from the start."""
         return self.bonded or self.cohesion > 0 or self.normal_stiffness is not None
 
+    @property
+    def least_stiffness(self) -> float:
+        """Normal stiffness (Pa/m) that springs of its bonds must exceed."""
+        return 0.0
+
     @abstractmethod
     def response(self, history: History, stiffness: Floats) -> InterfaceResponse:
         """Return springs and limits of contacts at a fixed ``history``.

@@ -46,6 +46,12 @@ class Softening(MohrCoulomb):
     def columns(self) -> Mapping[str, HistoryColumn]:
         return {**super().columns, "damage": DAMAGE}
 
+    @property
+    def least_stiffness(self) -> float:
+        """See `InterfaceLaw.least_stiffness`: the steepest fall of strength over the opening."""
+        falls = -np.diff(self.curve[1]) / np.diff(self._widths)
+        return float(self.tensile_strength * falls.max())
+
     def response(self, history: History, stiffness: Floats) -> InterfaceResponse:
         """Return the strength left, and the secant stiffness of open bonds."""
         damage = history["damage"]
@@ -120,11 +126,11 @@ class Softening(MohrCoulomb):
         opening_at = self._widths + np.outer(self.tensile_strength / stiffness, share)
         span = np.diff(opening_at, axis=1)
         if (span <= 0).any():
-            least = self.tensile_strength * np.max(-np.diff(share) / np.diff(self._widths))
             raise SceneError(
                 f"interface law {type(self).__name__}: normal stiffness {stiffness.min():.4g} Pa/m "
-                f"of a bond: expected above {least:.4g} Pa/m, as its strength and fracture energy "
-                "ask for: give the interface a normal_stiffness, or raise bond_stiffness"
+                f"of a bond: expected above {self.least_stiffness:.4g} Pa/m, as its strength and "
+                "fracture energy ask for: give the interface a normal_stiffness, or raise "
+                "bond_stiffness"
             )
         passed = np.clip((opening[:, None] - opening_at[:, :-1]) / span, 0.0, 1.0)
         width = passed @ np.diff(self._widths)

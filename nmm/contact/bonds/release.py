@@ -22,6 +22,9 @@ from nmm.interfaces.limits import Limits
 # most, and most of those that soften. These unload by their strength over it while they open, which
 # is missing in the energy that they take.
 FIRM, RIGID = 100.0, 1e4
+# Stiffness of the softest springs, in those under which force would fall at a standstill. At ``a``
+# times that damage grows by ``a / (a - 1)`` of what opens: at 2 iterations stall.
+ABOVE_LEAST = 10.0
 
 # Contacts with forces and jumps (m,) at an instant: as they stand, or as an answer leaves them.
 LoadedContacts = ContactPoints | StepAnswer
@@ -34,6 +37,7 @@ def released(
     loaded: LoadedContacts,
     springs: Springs,
     limits: Limits,
+    least: Floats,
 ) -> tuple[ContactPoints, float]:
     """Return the contacts with bonds handed over to their laws, or broken, from now on.
 
@@ -52,9 +56,11 @@ def released(
         Of whole bonds, as stiff as the penalty of the terms.
     limits
         Of the laws; what goes beyond is not taken over.
+    least
+        (m,) normal stiffness that springs of the laws must exceed (N/m).
     """
     held, (penalty, shear_penalty, _) = contacts.bonded & ~lost, springs
-    firm = np.where(held, _firm(loaded.normal_force, loaded.gap, penalty), FIRM)
+    firm = np.where(held, _firm(loaded.normal_force, loaded.gap, penalty, least), FIRM)
     normal, tangent = firm * penalty, firm * shear_penalty
     pull = np.minimum(loaded.normal_force, np.where(held, limits.tension, 0.0))
     bound = limits.cohesion + limits.friction * np.maximum(-pull, 0.0)
@@ -85,15 +91,17 @@ def released(
     return found, float((before - after)[kept | beside(contacts, kept)].sum())
 
 
-def _firm(pull: Floats, gap: Floats, penalty: Floats) -> Floats:
+def _firm(pull: Floats, gap: Floats, penalty: Floats, least: Floats) -> Floats:
     """Stiffness (m,) in penalties of springs that carry a pull where bonds stand open already.
 
     Terms let a bond open a little where stress varies from cell to cell. A spring that is as long
-    goes on without a jump of the traction, and what is open counts as opened.
+    goes on without a jump of the traction, and what is open counts as opened, as far as that
+    leaves it as firm as its law asks for.
     """
     is_open = (pull > 0) & (gap > 0)
     found = pull / np.where(is_open, penalty * gap, 1.0)
-    return np.where(is_open, np.clip(found, 1.0, RIGID), RIGID)
+    found = np.where(is_open, np.clip(found, 1.0, RIGID), RIGID)
+    return np.asarray(np.maximum(found, ABOVE_LEAST * least / penalty))
 
 
 def _alone(contacts: ContactPoints, found: ContactPoints, penalty: tuple[Floats, Floats]) -> Floats:

@@ -33,7 +33,8 @@ def let_go(
     if freed.any():
         ended = {name: getattr(solved.answer, name) for name in AT_ENDS}
         before = replace(contacts, **ended)
-        after, shed = released(before, freed, lost, solved.answer, springs, limits)
+        least = laws.least_stiffness(contacts)
+        after, shed = released(before, freed, lost, solved.answer, springs, limits, least)
     after = break_bonds(laws, after, lost)
     points = record.book.points
     order = np.argsort(contacts.key)

@@ -150,6 +150,11 @@ class ContactLaws:
         """Return the normal stiffness (m,) of whole bonds (N/m)."""
         return self.springs(contacts)[0]
 
+    def least_stiffness(self, contacts: ContactPoints) -> Floats:
+        """Return the normal stiffness (m,) that springs of bonds must exceed (N/m)."""
+        least = np.array([law.least_stiffness for law in self.laws])
+        return np.asarray(least[contacts.interface] * self.areas(contacts))
+
     @cached_property
     def stiff(self) -> bool:
         """Whether any law has a stiffness of its own."""

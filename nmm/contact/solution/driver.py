@@ -162,7 +162,8 @@ class ContactSolver:
         freed = broken & contacts.tied
         if freed.any():
             limits, springs = iteration.response.limits, iteration.springs
-            contacts, stored = released(contacts, freed, brittle, loaded, springs, limits)
+            least = self._laws.least_stiffness(contacts)
+            contacts, stored = released(contacts, freed, brittle, loaded, springs, limits, least)
         return break_bonds(self._laws, contacts, brittle), stored
 
     def acting(self) -> csc_array | None:

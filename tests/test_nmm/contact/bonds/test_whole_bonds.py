@@ -1,5 +1,7 @@
 """Bonds that consistent terms hold: no stiffness of their own, and no jump as they give way."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -188,3 +190,30 @@ def test_what_the_penalty_counts_of_a_jump_is_its_mean_and_a_share_of_the_rest()
     assert found[1] - found[0] == pytest.approx(2 * share[0], rel=1e-12)
     # E / h over the penalty, 1.5 times its least E / 2: a face half a block from the middle.
     assert share == pytest.approx([4 / 3, 4 / 3], rel=1e-9)
+
+
+@pytest.mark.parametrize("strength", [5e4, 1e5])
+def test_soft_terms_hand_over_springs_as_firm_as_their_law_asks_for(strength):
+    """Blocks of 1 m and 0.1 GPa: terms of 0.16 GPa/m, where 0.1 MPa and 20 J/m2 ask for 0.25."""
+    rows = [(0, [0, 1, 2, 3, 4]), (1, [0, 0.5, 1.5, 2.5, 3.5, 4])]
+    joint = {"cohesion": 2 * strength, "tensile_strength": strength, "bonded": True}
+    law = 'law = "linear_softening"\nfracture_energy = 20.0\n'
+    scene = text.scene(
+        'plane = "stress"\nduration = 0.07\n[inertia]\n[gravity]\n[contact]\n'
+        '[formulation.integrator]\ntype = "newmark"\nstep = 1e-3\n',
+        [
+            text.material("soft", modulus=1e8, poisson=0.2, density=2000.0),
+            text.interface("joint", 30.0, more=joint) + law,
+            *(
+                text.block(f"b{row}{number}", "soft", text.rectangle((a, row), (b, row + 1)))
+                for row, ends in rows
+                for number, (a, b) in enumerate(pairwise(ends))
+            ),
+            '[[supports]]\nname = "wall"\nsegment = [[0, 0], [0, 2]]\nfix = ["x", "y"]\n',
+        ],
+    )
+    run = nmm.run(parse_scene(scene))
+    assert run.summary.status == "converged", run.summary.sentence
+    # It breaks across its depth of 2 m at least.
+    assert run.history["bonded"][-1] < run.history["bonded"][0]
+    assert run.history["friction_loss"][-1] > 2 * 20.0
