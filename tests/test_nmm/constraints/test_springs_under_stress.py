@@ -158,3 +158,29 @@ def test_work_of_a_wall_that_is_driven_counts_the_stress_against_it(method):
     """It left out half of what the wall held at first: 7 % of the turnover."""
     summary = slab(method, right="displacement = [1e-3, 0]\n").summary
     assert abs(summary.energy_balance) < 1e-9
+
+
+HANDED_OVER = """
+[[viscous_boundaries]]
+name = "below"
+segment = [[0, 0], [8, 0]]
+reactions = true
+[[stages]]
+name = "in place"
+[[stages]]
+name = "in time"
+duration = 0.02
+supports = ["left", "right"]
+[inertia]
+[formulation.integrator]
+type = "newmark"
+step = 2e-3
+"""
+
+
+@pytest.mark.parametrize("method", ["penalty", "nitsche", "lagrange"])
+def test_a_viscous_boundary_takes_on_what_the_base_was_laid_with(method):
+    more = [HANDED_OVER, formulation("triangles", method)]
+    run = ground(more, (soil(), text.box("soil", (0, 0), (8, HIGH))))
+    assert run.summary.status == "converged", run.summary.sentence
+    assert np.abs(run.displacement).max() < STILL
