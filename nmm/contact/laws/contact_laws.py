@@ -1,18 +1,18 @@
-"""Interface laws at contact points: force limits, springs, history, and what breaks for good."""
+"""Interface laws at contact points: force limits, springs, history and stored energy."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
+from nmm.contact.laws.law_facts import LawFacts
 from nmm.contact.points.contact_points import TIED, ContactPoints
 from nmm.contact.points.kept import of_pairs
 from nmm.contact.problem.step_problem import Limits
 from nmm.interfaces.base import InterfaceLaw
-from nmm.interfaces.history import KEPT, History, HistoryColumn
+from nmm.interfaces.history import KEPT, History
 from nmm.interfaces.response import InterfaceResponse
 
 Springs = tuple[Floats, Floats, Bools]
@@ -20,13 +20,11 @@ Springs = tuple[Floats, Floats, Bools]
 
 
 @dataclass(frozen=True)
-class ContactLaws:
+class ContactLaws(LawFacts):
     """Interface laws of a scene and the springs that carry them.
 
     Attributes
     ----------
-    laws
-        One for each interface.
     thickness
         m.
     normal_penalty, shear_penalty
@@ -39,7 +37,6 @@ class ContactLaws:
         Whether whole bonds whose law has no stiffness of its own are held by consistent terms.
     """
 
-    laws: Sequence[InterfaceLaw]
     thickness: float
     normal_penalty: float
     shear_penalty: float
@@ -122,15 +119,6 @@ class ContactLaws:
             still = np.zeros(len(joints))
             self.evolved(joints, still, still, self.normal_stiffness(joints))
 
-    @cached_property
-    def evolving(self) -> dict[str, HistoryColumn]:
-        """Internal variables on which the response of laws depends within a step."""
-        return {name: one for law in self.laws for name, one in law.columns.items()}
-
-    def remembering(self, name: str) -> Bools:
-        """(n,) which laws have the internal variable of a name."""
-        return np.array([name in law.columns for law in self.laws], dtype=bool)
-
     @of_pairs
     def springs(self, contacts: ContactPoints) -> Springs:
         """Return the springs of whole bonds."""
@@ -155,16 +143,6 @@ class ContactLaws:
         least = np.array([law.least_stiffness for law in self.laws])
         return np.asarray(least[contacts.interface] * self.areas(contacts))
 
-    @cached_property
-    def stiff(self) -> bool:
-        """Whether any law has a stiffness of its own."""
-        return bool(self.has_stiffness.any())
-
-    @cached_property
-    def has_stiffness(self) -> Bools:
-        """(n,) whether each law has a stiffness of its own."""
-        return np.array([law.normal_stiffness is not None for law in self.laws], dtype=bool)
-
     def energy(self, contacts: ContactPoints, own_only: bool = False) -> float:
         """Recoverable energy (J) of the contacts, without that of tied bonds.
 
@@ -188,25 +166,10 @@ class ContactLaws:
         pressed = (normal * stretch**2)[acts | damped].sum()
         return float(pressed + (shear * contacts.slip**2)[acts].sum()) / 2
 
-    @cached_property
-    def makes_joints(self) -> Bools:
-        """(n,) whether shared edges of each law are followed as joints."""
-        return np.array([law.makes_joints for law in self.laws], dtype=bool)
-
-    @cached_property
-    def bonded(self) -> Bools:
-        """(n,) whether joints of each law hold together at the start."""
-        return np.array([law.bonded for law in self.laws], dtype=bool)
-
     @of_pairs
     def hold(self, contacts: ContactPoints) -> bool:
         """Return whether bonds hold any of the contacts."""
         return bool(contacts.bonded.any())
-
-    @cached_property
-    def damps(self) -> bool:
-        """Whether any law has damping."""
-        return any(law.damping for law in self.laws)
 
     @of_pairs
     def damping(self, contacts: ContactPoints) -> Floats:
@@ -216,15 +179,6 @@ class ContactLaws:
     def damped(self, contacts: ContactPoints) -> Bools | bool:
         """Return which contacts (m,) have a damper: in time these are springs, exact or not."""
         return self.damping(contacts) > 0 if self.damps else False
-
-    @cached_property
-    def brittle(self) -> Bools:
-        """(n,) whether bonds of each law break at once."""
-        found = np.zeros(len(self.laws), dtype=bool)
-        for number, law in enumerate(self.laws):
-            whole = law.initial(np.ones(1, dtype=bool))
-            found[number] = np.isinf(law.response(whole, np.ones(1)).limits.tension[0])
-        return found
 
     @of_pairs
     def areas(self, contacts: ContactPoints) -> Floats:
