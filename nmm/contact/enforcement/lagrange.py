@@ -185,8 +185,8 @@ def _corrected(
     smooth = frictionless(limits)
     elastic = np.where(own, shear / problem.shear_stiffness, 0.0)
     stays = active.sliding & (active.sign * (slip - elastic) >= -near_slip)
-    held = active.closed | (limits.tension > 0)
-    turned = ~active.sliding & held & (np.abs(shear) > bound + near_force)
+    resists = active.closed | (limits.tension > 0)
+    turned = ~active.sliding & resists & (np.abs(shear) > bound + near_force)
     sliding = stays | turned | smooth
     sign = np.where(stays, active.sign, np.sign(shear))
     return ActiveSet(~is_open, sliding, np.where(smooth, 0.0, sign) * sliding)

@@ -39,8 +39,8 @@ class ActiveSet:
 
 def first_active_set(problem: StepProblem) -> ActiveSet:
     """Active set of the first pass: the states given, and what penetrates is closed."""
-    held = np.isin(problem.state, (STICK, SLIDE, BONDED))
-    closed = held | (problem.gap <= 0)
+    touched = np.isin(problem.state, (STICK, SLIDE, BONDED))
+    closed = touched | (problem.gap <= 0)
     smooth = frictionless(problem.limits)
     sign = np.sign(np.where(problem.shear_force != 0, problem.shear_force, problem.slip))
     sliding = smooth | ((problem.state == SLIDE) & (sign != 0))
@@ -63,8 +63,8 @@ def next_active_set(
     bound = shear_bound(np.minimum(normal, limits.tension), ~opens, limits)
     smooth = frictionless(limits)
     stays = springs.sliding & (springs.sign * shear >= bound)
-    held = springs.closed | (limits.tension > 0)
-    turned = held & (np.abs(shear) > bound)
+    resists = springs.closed | (limits.tension > 0)
+    turned = resists & (np.abs(shear) > bound)
     sliding = stays | turned | smooth
     return ActiveSet(~opens, sliding, np.where(smooth, 0.0, np.sign(shear)) * sliding)
 
@@ -84,8 +84,8 @@ def changes(problem: StepProblem, old: ActiveSet, new: ActiveSet) -> Bools:
     """(m,) contacts whose state differs; the shear state of lost contacts does not count."""
     shear = (old.sliding != new.sliding) | (old.sign != new.sign)
     bond = problem.limits.tension > 0
-    held = (old.closed | bond) & (new.closed | bond)
-    return np.asarray((old.closed != new.closed) | (shear & held))
+    stays = (old.closed | bond) & (new.closed | bond)
+    return np.asarray((old.closed != new.closed) | (shear & stays))
 
 
 def words(springs: ActiveSet, contact: int) -> str:

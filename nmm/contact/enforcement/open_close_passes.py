@@ -90,8 +90,8 @@ class OpenClosePasses:
         if verdict is None:
             good = residual <= self.tolerance and self._admissible(normal, shear, gap, slip)
             verdict = Verdict(good, "converged", f"contact states settled in {passes} passes")
-        held = (springs.closed | (p.limits.tension > 0)) & (p.shear_stiffness > 0)
-        elastic = np.divide(shear, p.shear_stiffness, out=np.zeros_like(shear), where=held)
+        resists = (springs.closed | (p.limits.tension > 0)) & (p.shear_stiffness > 0)
+        elastic = np.divide(shear, p.shear_stiffness, out=np.zeros_like(shear), where=resists)
         return StepAnswer(
             increment=self.increment,
             normal_force=normal,
@@ -152,9 +152,9 @@ def _stiffness(problem: StepProblem, springs: ActiveSet) -> tuple[Floats, Floats
 def _constant_forces(
     problem: StepProblem, springs: ActiveSet, normal: Floats
 ) -> tuple[Floats, Floats]:
-    held = np.where(springs.closed, 0.0, problem.limits.tension)
-    bound = shear_bound(np.where(springs.closed, normal, held), springs.closed, problem.limits)
-    return held, np.where(springs.sliding, springs.sign * bound, 0.0)
+    pull = np.where(springs.closed, 0.0, problem.limits.tension)
+    bound = shear_bound(np.where(springs.closed, normal, pull), springs.closed, problem.limits)
+    return pull, np.where(springs.sliding, springs.sign * bound, 0.0)
 
 
 def _story(cycle: list[ActiveSet], contact: int) -> str:

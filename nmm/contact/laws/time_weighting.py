@@ -66,8 +66,8 @@ class TimeWeighting(Transform):
 
     def _lead(self, problem: StepProblem) -> Floats:
         stretch = problem.gap - self.lift
-        held = np.where(self.pulls, stretch, np.minimum(stretch, 0.0))
-        return np.asarray((1 / self.weight - 1) * held)
+        carried = np.where(self.pulls, stretch, np.minimum(stretch, 0.0))
+        return np.asarray((1 / self.weight - 1) * carried)
 
 
 @dataclass(frozen=True)

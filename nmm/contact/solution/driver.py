@@ -173,9 +173,9 @@ class ContactSolver:
         problem, answer = self.last
         closed = answer.normal_force != 0
         bound = shear_bound(answer.normal_force, closed, problem.limits)
-        held = closed & (answer.state != SLIDE) & (bound > 0)
+        sticks = closed & (answer.state != SLIDE) & (bound > 0)
         normal = np.where(closed, problem.normal_stiffness, 0.0)
-        shear = np.where(held, problem.shear_stiffness, 0.0)
+        shear = np.where(sticks, problem.shear_stiffness, 0.0)
         return self.memory.pattern_of(problem).matrix(problem, normal, shear)
 
     def unbalanced(self) -> Floats | None:
