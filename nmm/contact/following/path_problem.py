@@ -65,6 +65,13 @@ class PathStep:
         return self.residual <= ROUNDED and self.short <= ROUNDED
 
     @property
+    def lacking(self) -> str:
+        """What it lacks of a solution, in words."""
+        if self.residual <= ROUNDED < self.short:
+            return f"in balance, and short of the step by {100 * self.short:.2g} %"
+        return f"out of balance by {self.residual:.1e}"
+
+    @property
     def out(self) -> float:
         """Size of the out-of-balance force (N)."""
         return float(np.linalg.norm(self.rest))

@@ -175,7 +175,7 @@ def _answer(
     slip = np.where(touching | contacts.bonded, slip, 0.0)
     bonded = contacts.bonded.copy()
     bonded[free] = step.contacts.history["bonded"]
-    why = "settled" if step.converged else f"out of balance by {step.residual:.1e}"
+    why = "settled" if step.converged else step.lacking
     return StepAnswer(
         increment=increment,
         normal_force=force[:, 0],
