@@ -10,7 +10,7 @@ import shapely
 from integration.arrays import Floats, Ints
 from nmm.errors import Fault
 from nmm.geometry.blocks import Regions
-from nmm.geometry.checks.supports import contradicting_supports
+from nmm.geometry.checks.supports import doubled_supports
 from nmm.geometry.places import edges_on, polygons_at, tolerance
 from nmm.scene.actions import MonitorTable, SupportTable
 from nmm.scene.model import Scene
@@ -36,7 +36,7 @@ def place_faults(scene: Scene, whole: Regions) -> list[Fault]:
         *_named_pieces(scene, whole),
         *_given_twice(scene, whole),
         *_cracks(scene, whole),
-        *contradicting_supports(scene, whole),
+        *doubled_supports(scene, whole),
     ]
 
 

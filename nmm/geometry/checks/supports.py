@@ -1,4 +1,4 @@
-"""Supports that prescribe two displacements of the same material."""
+"""Supports that hold the same material twice."""
 
 from __future__ import annotations
 
@@ -16,23 +16,34 @@ from nmm.scene.actions import SupportTable
 from nmm.scene.model import Scene
 
 
-def contradicting_supports(scene: Scene, whole: Regions) -> Iterator[Fault]:
-    """Yield a fault for every two supports that prescribe different displacements of a place.
+def doubled_supports(scene: Scene, whole: Regions) -> Iterator[Fault]:
+    """Yield a fault for every two supports that hold a place along the same axis, where that errs.
 
-    A support of a whole block prescribes the way of all its points. Two segments contradict each
-    other where they share a length, a point contradicts what holds it.
+    A support of a whole block prescribes the way of all its points. Two segments hold one place
+    where they share a length, a point meets what holds it. Two that prescribe the same way are
+    refused where both are segments, as each would take all of the traction there. What no stage
+    has at once does not count.
     """
-    moving = [n for n, item in enumerate(scene.supports) if any(item.displacement)]
-    if not moving:
-        return
     within = tolerance(whole.polygons.points)
     pairs = combinations(enumerate(scene.supports), 2)
     for (_, one), (index, other) in pairs:  # a handful of supports
-        axes = [axis for axis in one.fix if axis in other.fix and _ways_differ(one, other, axis)]
-        if axes and _meet(one, other, whole, within):
-            value = f'"{other.name}" and "{one.name}" hold one place at two displacements'
-            remedy = f"keep one of them, or let only one fix {axes[0]}"
-            yield Fault(scene.source.place("supports", index), value, "one displacement", remedy)
+        axes = [axis for axis in one.fix if axis in other.fix]
+        apart = [axis for axis in axes if _ways_differ(one, other, axis)]
+        edges = one.segment is not None and other.segment is not None
+        errs = bool(apart or (axes and edges)) and _at_once(scene, {one.name, other.name})
+        if not (errs and _meet(one, other, whole, within)):
+            continue
+        value = f'"{other.name}" and "{one.name}" hold one '
+        value += "place at two displacements" if apart else f"edge along {axes[0]}"
+        expected = "one displacement" if apart else "one support of an edge along an axis"
+        remedy = f"keep one of them, or let only one fix {(apart or axes)[0]}"
+        yield Fault(scene.source.place("supports", index), value, expected, remedy)
+
+
+def _at_once(scene: Scene, names: set[str]) -> bool:
+    """Whether supports act together: in any stage, where the scene has some."""
+    listed = [stage.supports for stage in scene.stages] or [None]
+    return any(one is None or names <= set(one) for one in listed)
 
 
 def _ways_differ(one: SupportTable, other: SupportTable, axis: str) -> bool:

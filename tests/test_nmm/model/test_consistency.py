@@ -31,6 +31,9 @@ class Clockwork:
     def stepper(self):
         return self
 
+    def remember(self):
+        return None
+
     def attempt(self, state, end, length):
         return SimpleNamespace(converged=True, state=SimpleNamespace(time=state.time + length))
 
@@ -135,6 +138,25 @@ def test_places_apart_may_be_held_at_two_displacements(projectile, places):
     regions(parse_scene(text))
     same = projectile + HELD.format("one", EDGE, "x", 0.1) + HELD.format("two", BLOCK, "x", 0.1)
     regions(parse_scene(same))
+
+
+def test_an_edge_held_twice_along_one_axis_is_refused(projectile):
+    # Each would take all of its traction: a bar moved by 1 % more, reactions were twice its load.
+    text = projectile + HELD.format("one", EDGE, "x", 0) + HELD.format("two", PART, "x", 0)
+    with pytest.raises(nmm.NmmError, match='"two" and "one" hold one edge along x'):
+        regions(parse_scene(text))
+    regions(parse_scene(text.replace('["x"]', '["y"]', 1)))
+
+
+def test_an_edge_may_be_held_by_one_support_in_each_stage(projectile):
+    text = projectile.replace("duration = 1.0\n", "")
+    text += HELD.format("one", EDGE, "x", 0) + HELD.format("two", EDGE, "x", 0.1)
+    stage = '[[stages]]\nname = "{0}"\nduration = 1\nsupports = ["{0}"]\n'
+    regions(parse_scene(text + stage.format("one") + stage.format("two")))
+    with pytest.raises(nmm.NmmError, match="at two displacements"):
+        regions(
+            parse_scene(text + stage.format("one") + '[[stages]]\nname = "both"\nduration = 1\n')
+        )
 
 
 def test_all_is_a_place_of_loads_and_supports(projectile):
