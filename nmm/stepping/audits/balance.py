@@ -9,32 +9,29 @@ from nmm.effects.base import Instant
 from nmm.solvers.known import gross
 from nmm.solvers.unchecked import magnitudes
 from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings, percent
-from nmm.stepping.drive.verdict import CONVERGED, FAILURE, SPENT
+from nmm.stepping.drive.verdict import CONVERGED, FAILURE
 
-# Roundings of stiffness times motion that forces may be off by.
-ROUNDINGS = 10 * float(np.finfo(float).eps)
 # A body counts as if it bore at least this share of what the one that bears most does.
 LIGHT = 1e-3
 
 
 def balance(run: EndedRun) -> Findings:
-    """Audit force and moment on every body where statics ends, as it stands then.
+    """Audit force and moment on every body where statics with contact ends, as it stands then.
 
     They are set beside the sizes of the forces at all unknowns, not beside a sum: loads that pull a
     body apart have none, and reactions to nothing are rounding. Where paths end bonds may have
     given way for the next step: there all bodies count together, as contact comes in pairs.
     Multipliers that hold supports are in no force, so that bodies that they hold are not audited.
-    What stiffnesses make of the rounding of the motion does not count. A run that ends where blocks
-    have split has no balance since.
+    A run that was stopped within a step has the contacts of that step, not of the last state, and
+    one that ends where blocks have split has no balance since.
     """
     loading, plan, model = run.scene.loading, run.stepper.plan, run.stepper.model
     followed = loading is not None and loading.control is not None
-    ended = followed or run.verdict.code in (CONVERGED, FAILURE, SPENT)
+    ended = followed or run.verdict.code in (CONVERGED, FAILURE)
     solved = run.state is not run.start  # what splits counts from its state after that
-    if run.dynamic or not (ended and solved):
+    if run.dynamic or not (ended and solved) or (plan.contact is None and not followed):
         return
     left, size = _left(run, with_contact=not followed)
-    left = np.sign(left) * np.maximum(np.abs(left) - _rounding(run), 0.0)
     border = plan.border(run.state, Instant.of(run.state))
     if border is not None:
         left[model.manifold.unknown_body[csr_array(border[0]).indices]] = 0.0
@@ -74,16 +71,3 @@ def _left(run: EndedRun, with_contact: bool) -> tuple[Floats, Floats]:
     left[:, :2] = np.einsum("bij,bj->bi", turn, left[:, :2])
     left[:, 2] /= np.inf if run.stepper.kinematics.finite else np.sqrt(model.manifold.body_area)
     return left, np.asarray(np.hypot(size[:, 0], size[:, 1]))
-
-
-def _rounding(run: EndedRun) -> Floats:
-    """Return force, and moment over width, (B, 3) of bodies by the rounding of their motion."""
-    state, model = run.state, run.stepper.model
-    way = state.frames.centre - model.manifold.body_centroid
-    sizes = magnitudes(model.manifold.rigid_modes)
-    rigid = np.column_stack([way, state.frames.angle])
-    motion = np.abs(state.deformation) + sizes @ np.abs(rigid).ravel()
-    stiffness = magnitudes(run.stepper.plan.matrix(state, model.stiffness))
-    found = ROUNDINGS * (sizes.T @ (stiffness @ motion)).reshape(-1, 3)
-    found[:, 2] /= np.sqrt(model.manifold.body_area)
-    return np.asarray(found)

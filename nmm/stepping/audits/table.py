@@ -73,7 +73,7 @@ THRESHOLDS: dict[str, Threshold] = {
         "forces on it, or 1e-3 of the largest size",
         1e-6,
         1e-3,
-        "statics that were solved or stopped, of bodies that no multipliers hold; "
+        "statics with contact that were solved, of bodies that no multipliers hold; "
         "`[loading.control]`, of all bodies together",
     ),
     "field_imbalance": Threshold(

@@ -85,12 +85,10 @@ def _next(
 ) -> InTime | RunVerdict:
     """Return where the next step ends, or why there is none."""
     take = _fixed if schedule.control is None else _by_error
-    start = stepper.remember()
     try:
         before, attempt, to, why = take(recorder, at, schedule)
         jump = None if attempt.converged else jumped(recorder, at, schedule, names)
     except BudgetSpentError as spent:
-        stepper.restore(start)
         return RunVerdict(SPENT, f"stopped at {at.state.time:.6g} s: {spent}")
     except NmmError as fault:
         return broken_off(recorder, f"{at.state.time:.6g} s", fault)

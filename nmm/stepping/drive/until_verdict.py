@@ -36,30 +36,20 @@ def until_verdict(
 ) -> tuple[State, RunVerdict]:
     """Continue a run until a step ends it, or its budget is spent.
 
-    ``stopped`` says what a budget that is spent leaves. Of a step that was broken off nothing is
-    left: its corrections are accepted one by one, and the last one may be that of no equilibrium.
+    ``stopped`` says what a budget that is spent leaves.
 
     Returns
     -------
     The last accepted state, which is recorded as the last, and the verdict.
     """
-    stepper = recorder.stepper
-    solved, known = stepper.discretisation, stepper.carried
-
-    def taken_back() -> None:
-        if stepper.discretisation is solved:
-            stepper.return_to(known)
-
     try:
         while not isinstance(found := step(at), RunVerdict):
-            at, solved, known = found, stepper.discretisation, stepper.carried
+            at = found
         verdict = found
     except BudgetSpentError as spent:
-        taken_back()
         factor = at.state.load_factor
         verdict = RunVerdict(SPENT, f"{stopped} at load factor {factor:.6g}: {spent}")
     except NmmError as fault:
-        taken_back()
         verdict = broken_off(recorder, f"load factor {at.state.load_factor:.6g}", fault)
     recorder.last(at.state, "load", at.contacts)
     return at.state, verdict
