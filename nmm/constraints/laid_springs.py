@@ -10,7 +10,6 @@ from integration.contraction import contract
 from nmm.assembly.tractions.donors import across
 from nmm.constraints.imposition import Imposition
 from nmm.constraints.interface import Interface
-from nmm.constraints.shared_edges import bonded_stiffness, shared_edges
 from nmm.constraints.springs import Springs
 from nmm.effects.base import Setup
 
@@ -68,6 +67,8 @@ def _stretch(stiffness: Floats, force: Floats) -> Floats:
 
 def _taken(setup: Setup, interface: Interface) -> Bools:
     """Points (m,) of a support that face another body, whose contact or bond has the traction."""
+    from nmm.constraints.shared_edges import bonded_stiffness, shared_edges  # finds contacts
+
     joints, place = shared_edges(setup.model), interface.first
     if setup.scene.contact is None:
         _, sprung, glued = bonded_stiffness(setup, joints)

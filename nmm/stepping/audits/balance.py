@@ -22,14 +22,16 @@ def balance(run: EndedRun) -> Findings:
     body apart have none, and reactions to nothing are rounding. Where paths end bonds may have
     given way for the next step: there all bodies count together, as contact comes in pairs.
     Multipliers that hold supports are in no force, so that bodies that they hold are not audited.
-    A run that was stopped within a step has the contacts of that step, not of the last state, and
-    one that ends where blocks have split has no balance since.
+    A run that was stopped within a step has the contacts of that step, not of the last state, one
+    that moved on after its failure those of the motion, and one that ends where blocks have split
+    has no balance since.
     """
     loading, plan, model = run.scene.loading, run.stepper.plan, run.stepper.model
     followed = loading is not None and loading.control is not None
     ended = followed or run.verdict.code in (CONVERGED, FAILURE)
     solved = run.state is not run.start  # what splits counts from its state after that
-    if run.dynamic or not (ended and solved) or (plan.contact is None and not followed):
+    moved = loading is not None and loading.motion_after_failure is not None
+    if run.dynamic or moved or not (ended and solved) or (plan.contact is None and not followed):
         return
     left, size = _left(run, with_contact=not followed)
     border = plan.border(run.state, Instant.of(run.state))

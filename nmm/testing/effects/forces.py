@@ -13,7 +13,7 @@ meets no kink and hardly bends.
 from itertools import pairwise
 
 import numpy as np
-from scipy.integrate import simpson
+from scipy.integrate import simpson, trapezoid
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
@@ -89,13 +89,18 @@ def check_force(effect: Effect, name: str, state: State, n: int) -> None:
 
 
 def _work(effect: Effect, name: str, model: Model, state: State, way: Floats) -> None:
-    """Compare what the effect gives on a way with its force times it, by Simpson's rule."""
+    """Compare what the effect gives on a way with its force times it.
+
+    That is found by Simpson's rule where the force is curved, and of lines with a kink where the
+    way begins by the trapezoidal one.
+    """
+    integral = simpson if _curved(effect) else trapezoid
     shares = np.linspace(0, 1, PIECES + 1) if _curved(effect) else np.array([-0.5, 0.0, 0.5])
     places = [strain_only(model, state, share * way) for share in shares]
     forces = np.array([effect.force(one, Instant.of(one)) for one in places])
     given = sum(_given(effect, *pair) for pair in pairwise(places))
-    expected = float(simpson(forces @ way, x=shares))
-    size = float(simpson(np.abs(forces) @ np.abs(way), x=shares))
+    expected = float(integral(forces @ way, x=shares))
+    size = float(integral(np.abs(forces) @ np.abs(way), x=shares))
     stored = effect.energy(places[-1]) if defines(effect, "energy") else 0.0
     unit = size + 1e-3 * abs(stored) or 1.0
     what = f"{name}: work less the gain of energy and the loss, over the force times the way"

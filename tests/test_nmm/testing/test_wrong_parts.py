@@ -533,9 +533,6 @@ class Quiet(Springs):
     def force(self, state, jump):
         return 2 * super().force(state, jump)
 
-    def energy(self, state, jump):
-        return 2 * super().energy(state, jump)
-
     def point_forces(self, state, jump):
         return 0.5 * super().point_forces(state, jump)
 
