@@ -73,12 +73,14 @@ class Solver(LinearSolver):
         return self.inner.decompose(matrix)
 
     def indefinite(self):
-        inner = self.inner.indefinite()
-        return Solver(inner.refinements, self.shift, inner)
+        return self.by(self.inner.indefinite())
 
     def unsymmetric(self):
-        inner = self.inner.unsymmetric()
-        return Solver(inner.refinements, self.shift, inner)
+        return self.by(self.inner.unsymmetric())
+
+    def by(self, inner):
+        # A solver of dependent functions refines more often, whatever its settings.
+        return Solver(max(self.refinements, inner.refinements), self.shift, inner)
 
     def scaling(self, matrix):
         return self.inner.scaling(matrix)

@@ -84,12 +84,7 @@ def test_a_part_of_ones_own_gives_the_digits_of_the_one_it_passes_on_to(part, co
     found = history(part, f"{HERE}:{own}", cover, time)
     assert set(found) == set(expected)
     for name, column in expected.items():
-        # Few contacts of a mesh are solved to the tolerance, 1e-8, by factors of the solver itself.
-        if (part, cover, time) == ("solver", "meshes", "dynamic"):
-            allowed = (1e-3 if name == "residual" else 1e-6) * np.nanmax(np.abs(column))
-            assert np.allclose(found[name], column, rtol=0.0, atol=allowed, equal_nan=True), name
-        else:
-            assert np.array_equal(found[name], column, equal_nan=True), name
+        assert np.array_equal(found[name], column, equal_nan=True), name
 
 
 def test_parts_of_ones_own_are_held_to_the_suites_of_all():
