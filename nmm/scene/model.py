@@ -27,13 +27,13 @@ from nmm.scene.actions import (
     ReferenceTable,
     SupportTable,
 )
-from nmm.scene.consistency import contradictions
 from nmm.scene.faults import Source
 from nmm.scene.fields import Count, Frozen, Length, TableName, Text, Time, example
 from nmm.scene.matter.interfaces import InterfaceTable
 from nmm.scene.matter.materials import Material
 from nmm.scene.output import OutputTable
 from nmm.scene.own_tables import EffectTable
+from nmm.scene.rules.contradictions import contradictions
 from nmm.scene.solids import Block, Crack, JointSet, Tessellation
 from nmm.scene.stages import StageTable
 from nmm.scene.tables.fracture.cohesive import CohesiveZonesTable

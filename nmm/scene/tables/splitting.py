@@ -1,15 +1,12 @@
-"""Tables of blocks that split: strength and limits of a material, and their rules."""
+"""Tables of blocks that split: strength and limits of a material."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import Field, model_validator
 
-from nmm.scene.faults import suggestion
 from nmm.scene.fields import Angle, Count, Frozen, Length, Options, PartName, Stress, fault
-from nmm.scene.unread_rows import Finding
 
 
 class SplittingTable(Frozen):
@@ -70,21 +67,3 @@ class SplittingTable(Frozen):
             remedy = 'add for example tensile_strength = "2.9 MPa"'
             raise fault("neither tensile_strength nor cohesion", "one of them", remedy)
         return self
-
-
-def splitting_contradictions(data: Mapping[str, Any]) -> Iterator[Finding]:
-    """Yield materials that do not exist, and what blocks cannot split without or beside.
-
-    Works on unvalidated tables as `nmm.scene.consistency` does.
-    """
-    named, materials = data.get("splitting"), data.get("materials")
-    if not isinstance(named, Mapping) or not named:
-        return
-    known = list(materials) if isinstance(materials, Mapping) else []
-    for name in named:
-        if name not in known:
-            expected = "the name of a material"
-            yield ("splitting", name), f'"{name}"', expected, suggestion(name, known)
-    if "contact" not in data:
-        remedy = "add [contact] and an interface, through which the pieces meet"
-        yield ("splitting",), "no [contact]", "a scene with contact", remedy

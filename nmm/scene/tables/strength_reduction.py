@@ -2,20 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Any
-
 from pydantic import Field, model_validator
 
 from nmm.scene.fields import Frozen, Number, fault
-from nmm.scene.lines import Path
-from nmm.scene.unread_rows import Finding, rows
-
-# Tables that are incompatible with runs under reduced strengths.
-OTHERS = ("inertia", "duration", "loading", "fracture")
-# The same for tables of several entries.
-SEVERAL = ("splitting",)
-STRENGTHS = ("cohesion", "friction_angle", "tensile_strength", "yield_stress")
 
 
 class StrengthReductionTable(Frozen):
@@ -43,25 +32,3 @@ class StrengthReductionTable(Frozen):
             remedy = "raise highest, or lower lowest"
             raise fault(f"lowest = {self.lowest:g}", f"less than {self.highest:g}", remedy)
         return self
-
-
-def reduction_contradictions(data: Mapping[str, Any]) -> Iterator[Finding]:
-    """Yield what a scene with ``[strength_reduction]`` lacks and is incompatible with."""
-    if "strength_reduction" not in data:
-        return
-    place: Path = ("strength_reduction",)
-    named = [key for key in OTHERS if data.get(key) is not None]
-    for key in [*named, *(key for key in SEVERAL if data.get(key))]:
-        remedy = f"remove {key}, or [strength_reduction]"
-        yield place, f"[strength_reduction] with {key}", "statics under full load", remedy
-    for number, row in rows(data, "stages"):
-        if "duration" in row:
-            found = f"[strength_reduction] with duration = {row['duration']}"
-            yield (*number, "duration"), found, "stages that come to rest", "remove one of them"
-    tables = [data.get(key) for key in ("materials", "interfaces")]
-    parts = [part for one in tables if isinstance(one, Mapping) for part in one.values()]
-    if not any(
-        isinstance(part, Mapping) and any(key in part for key in STRENGTHS) for part in parts
-    ):
-        remedy = "give a material a law with strength, or add [interfaces.NAME]"
-        yield place, "nothing has strength", "strength to be reduced", remedy

@@ -1,1 +1,1 @@
-"""Tables of crack growth, nucleation and cohesive zones, and their consistency rules."""
+"""Tables of crack growth, nucleation and cohesive zones."""

@@ -1,14 +1,10 @@
-"""The table ``[cohesive_zones]``, and its consistency rules."""
+"""The table ``[cohesive_zones]``: length, strength ahead and beginning of zones."""
 
 from __future__ import annotations
-
-from collections.abc import Iterator
 
 from pydantic import Field
 
 from nmm.scene.fields import Flag, Frozen, Length, Number
-from nmm.scene.tables.fracture.bond_rules import has_bond
-from nmm.scene.unread_rows import Finding, Tables
 
 
 class CohesiveZonesTable(Frozen):
@@ -51,27 +47,3 @@ class CohesiveZonesTable(Frozen):
         description="a length in m, > 0, at which a zone stops",
         examples=["200 mm"],
     )
-
-
-# Tables that are incompatible with cohesive zones.
-BESIDE = ("fracture", "splitting", "heat", "initial_stresses")
-
-
-def cohesive_contradictions(data: Tables) -> Iterator[Finding]:
-    """Yield what ``[cohesive_zones]`` lacks and is incompatible with, on unvalidated tables."""
-    table = data.get("cohesive_zones")
-    if table is None:
-        return
-    path = ("cohesive_zones",)
-    if "contact" not in data:
-        yield path, "no [contact]", "a scene with contact", "add [contact]"
-    elif not has_bond(data):
-        remedy = "add bonded = true and tensile_strength to an interface"
-        yield path, "no interface that is bonded", "a strength", remedy
-    begins = isinstance(table, dict) and table.get("nucleation") is True
-    if not data.get("cracks") and not begins:
-        remedy = "add the cracks that are there from the start, or nucleation = true"
-        yield path, "no [[cracks]]", "where zones begin", remedy
-    for key in BESIDE:
-        if data.get(key):
-            yield path, f"[{key}]", f"a scene without {key}", "remove one of the two"
