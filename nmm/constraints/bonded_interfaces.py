@@ -18,7 +18,6 @@ from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import nearest
 from nmm.constraints.laid_springs import free_where, laid_under_stress, stretch_of
 from nmm.constraints.nitsche.linear_matter import method_for
-from nmm.constraints.nitsche.nitsche import Nitsche
 from nmm.constraints.shared_edges import EDGE_ORDER, bonded_stiffness, gauss_interface, shared_edges
 from nmm.constraints.springs import Springs, glue_stiffness, joint_springs
 from nmm.constraints.tied_interfaces import TiedInterfaces
@@ -151,7 +150,7 @@ class _Anchors:
 
 def _least_cut(model: Model, ties: Sequence[Imposition]) -> float:
     """Return `BondedInterfaces.least_cut`; 1 where traces are polynomials."""
-    glued = [tie.interface.sides for tie in ties if isinstance(tie, Nitsche)]
+    glued = [tie.interface.sides for tie in ties if tie.reads_stress]
     if model.manifold.trace_degree is not None or not glued:
         return 1.0
     area = model.element_area

@@ -27,6 +27,7 @@ from nmm.registry import Registry
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from nmm.constraints.nitsche.volume_lift import PressureLift
     from nmm.formulation import SupportMethod
 
 
@@ -48,6 +49,8 @@ class Imposition(ABC):
     """Whether it holds supports only where a mesh says the size of its cells."""
     reads: ClassVar[frozenset[str] | None] = None
     """Keys of ``[supports]`` and ``[glue]`` beside its name that it has a use of; None is all."""
+    reads_stress: ClassVar[bool] = False
+    """Whether its tractions are those of the elements beside it."""
 
     @classmethod
     @abstractmethod
@@ -107,6 +110,29 @@ class Imposition(ABC):
     def oriented(self) -> bool:
         """Whether its directions are those of one of two bodies."""
         return False
+
+    @property
+    def springs(self) -> Floats | None:
+        """Springs (m,) or (m, 2, 2) at the points in N/m, which `laid` stretches; None without."""
+        return None
+
+    @property
+    def stretch(self) -> Floats | float:
+        """(m, 2) by how far these are stretched as they are laid (m)."""
+        return 0.0
+
+    def laid(self, stretch: Floats) -> "Imposition":
+        """Return it with springs laid with a ``stretch`` (m, 2) in m."""
+        return self
+
+    @property
+    def lift(self) -> "PressureLift | None":
+        """Pressures beside a support, which others may share; None without any."""
+        return None
+
+    def with_lift(self, lift: "PressureLift") -> "Imposition":
+        """Return it with the pressures that others leave to it."""
+        return self
 
     @property
     def tied_unknowns(self) -> Ints:

@@ -1,7 +1,6 @@
 """Springs in prestressed ground: they carry the initial stress in the drawn geometry."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -10,7 +9,6 @@ from integration.contraction import contract
 from nmm.assembly.tractions.donors import across
 from nmm.constraints.imposition import Imposition
 from nmm.constraints.interface import Interface
-from nmm.constraints.springs import Springs
 from nmm.effects.base import Setup
 
 # Of the length of an edge: points lie within a joint up to rounding.
@@ -23,41 +21,36 @@ def laid_under_stress(setup: Setup, ties: Sequence[Imposition]) -> list[Impositi
     Between bodies it is the mean of both sides. Against the ground it is held back where another
     body takes it. Springs at points carry none, and other methods know of the stress themselves.
     """
-    return [
-        _laid(setup, tie)
-        if isinstance(tie, Springs) and tie.interface.first.normal is not None
-        else tie
-        for tie in ties
-    ]
+    return [tie.laid(_stretches(setup, tie)) for tie in ties]
 
 
 def stretch_of(tie: Imposition) -> Floats:
-    """Stretch (m, 2) with which a tie was laid (m); zero of what has no springs."""
-    laid = tie.stretch if isinstance(tie, Springs) else None
-    return np.zeros((len(tie.interface), 2)) if laid is None else laid
+    """Stretch (m, 2) with which the springs of a tie were laid (m)."""
+    return np.broadcast_to(tie.stretch, (len(tie.interface), 2))
 
 
 def free_where(tie: Imposition, chosen: Bools) -> Imposition:
     """Return a tie whose springs are laid free in chosen components (m, 2)."""
-    if not isinstance(tie, Springs) or tie.stretch is None:
-        return tie
-    return replace(tie, stretch=np.where(chosen, 0.0, tie.stretch))
+    return tie.laid(np.where(chosen, 0.0, tie.stretch))
 
 
-def _laid(setup: Setup, tie: Springs) -> Springs:
+def _stretches(setup: Setup, tie: Imposition) -> Floats:
+    """Stretch (m, 2) of springs along an edge that carry the stress; zero of other ties."""
+    normal, springs = tie.interface.first.normal, tie.springs
+    if normal is None or springs is None:
+        return np.zeros((len(tie.interface), 2))
     from nmm.effects.initial.stress_at_start import StressAtStart
 
     ground, interface = StressAtStart.declared(setup).within(setup.model), tie.interface
     sides = interface.sides
     stress = np.mean([ground(side.elements, side.position) for side in sides], axis=0)
-    assert interface.first.normal is not None
-    traction = interface.held * across(stress, interface.first.normal)
+    traction = interface.held * across(stress, normal)
     if interface.second is None:
         traction = np.where(_taken(setup, interface)[:, None], 0.0, traction)
-    return replace(tie, stretch=_stretch(tie.stiffness, interface.area[:, None] * traction))
+    return _under(springs, interface.area[:, None] * traction)
 
 
-def _stretch(stiffness: Floats, force: Floats) -> Floats:
+def _under(stiffness: Floats, force: Floats) -> Floats:
     """Return the way (m, 2) of springs at forces (m, 2); none of springs that are not there."""
     if stiffness.ndim > 1:
         return np.asarray(np.linalg.solve(stiffness, force[:, :, None])[:, :, 0], dtype=float)

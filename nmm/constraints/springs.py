@@ -1,6 +1,6 @@
 """Springs at points: Shi's fixed points (1988), stiff edges, joint elements (Goodman 1968)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
 import numpy as np
@@ -32,12 +32,11 @@ class Springs(Imposition):
     stiffness
         (m,) N/m, or tensors (m, 2, 2) that turn by the mean of both sides.
     stretch
-        (m, 2) by how far they are stretched as they are laid, which turns like them (m); None is
-        not at all.
+        (m, 2) by how far they are stretched as they are laid, which turns like them (m).
     """
 
     stiffness: Floats
-    stretch: Floats | None = None
+    stretch: Floats | float = 0.0
 
     words: ClassVar[str] = "springs"
     reads: ClassVar[frozenset[str] | None] = frozenset({"stiffness"})
@@ -65,21 +64,27 @@ class Springs(Imposition):
 
     def point_forces(self, state: State, jump: Floats) -> Floats:
         found = self._against(state, jump)
-        return found if self.stretch is None else found + self._laid(state)
+        return found + self._laid(state) if np.any(self.stretch) else found
 
     def energy(self, state: State, jump: Floats) -> float:
         return -0.5 * float((jump * self._against(state, jump)).sum())
 
     def laid_energy(self, state: State, jump: Floats) -> float:
-        return 0.0 if self.stretch is None else -float((jump * self._laid(state)).sum())
+        return -float((jump * self._laid(state)).sum()) if np.any(self.stretch) else 0.0
+
+    @property
+    def springs(self) -> Floats:
+        return self.stiffness
+
+    def laid(self, stretch: Floats) -> Self:
+        return replace(self, stretch=stretch)
 
     def _laid(self, state: State) -> Floats:
         """Forces (m, 2) in N with which springs are laid, as these have turned since."""
-        assert self.stretch is not None
-        if self.interface.second is None:
-            return self._against(state, -self.stretch)
-        turned = contract("mij,mj->mi", self.interface.turned(state), self.stretch)
-        return self._against(state, -turned)
+        stretch = np.asarray(self.stretch)
+        if self.interface.second is not None:
+            stretch = contract("mij,mj->mi", self.interface.turned(state), stretch)
+        return self._against(state, -stretch)
 
     def _against(self, state: State, way: Floats) -> Floats:
         """Forces (m, 2) in N against ways (m, 2) of the first side."""

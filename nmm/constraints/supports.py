@@ -15,9 +15,7 @@ from nmm.constraints.imposition import Imposition, Method, support_method
 from nmm.constraints.interface import Interface, nearest
 from nmm.constraints.laid_springs import free_where, laid_under_stress, stretch_of
 from nmm.constraints.nitsche.linear_matter import method_for
-from nmm.constraints.nitsche.nitsche import Nitsche
 from nmm.constraints.nitsche.volume_lift import sharing
-from nmm.constraints.springs import Springs
 from nmm.constraints.tied_interfaces import TiedInterfaces
 from nmm.constraints.turned_axes import turning
 from nmm.effects.acting_place import acting_place
@@ -246,16 +244,16 @@ def _lets_turn(model: Model, interfaces: Sequence[Interface]) -> bool:
 
 def _sharing(supports: Sequence[Imposition]) -> list[Imposition]:
     """Return supports whose pressures know of one another."""
-    own = [s.lift if isinstance(s, Nitsche) else None for s in supports]
-    pairs = zip(supports, sharing(own), strict=True)
-    return [replace(s, lift=one) if isinstance(s, Nitsche) else s for s, one in pairs]
+    pairs = zip(supports, sharing([s.lift for s in supports]), strict=True)
+    return [s if one is None else s.with_lift(one) for s, one in pairs]
 
 
 def _rate(tie: Imposition) -> Floats | None:
     """Springs (m, 1) for each length along edges (Pa/m); None of what is none of the kind."""
-    if not isinstance(tie, Springs) or tie.stiffness.ndim > 1 or tie.interface.first.normal is None:
+    springs = tie.springs
+    if springs is None or springs.ndim > 1 or tie.interface.first.normal is None:
         return None
-    return (tie.stiffness / tie.interface.area)[:, None]
+    return (springs / tie.interface.area)[:, None]
 
 
 def _interface(setup: Setup, support: "SupportTable", method: Method) -> Interface:

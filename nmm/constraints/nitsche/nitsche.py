@@ -7,7 +7,7 @@ is the body's own.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
 import numpy as np
@@ -51,6 +51,7 @@ class Nitsche(Imposition):
     words: ClassVar[str] = "Nitsche's method"
     reads: ClassVar[frozenset[str] | None] = frozenset({"gamma", "ghost"})
     needs_cells: ClassVar[bool] = True
+    reads_stress: ClassVar[bool] = True
 
     @classmethod
     def of(cls, model: Model, interface: Interface, method: Method) -> Self:
@@ -58,6 +59,9 @@ class Nitsche(Imposition):
         check_linear(model, f"[{place}] method", f'method = "{other}"')
         terms = against_ground if interface.second is None else between_bodies
         return cls(interface, *terms(model, interface, method))
+
+    def with_lift(self, lift: PressureLift) -> Self:
+        return replace(self, lift=lift)
 
     def matrix(self, state: State) -> Triplets:
         area, n = self.interface.area[:, None, None], len(state.deformation)

@@ -1,6 +1,6 @@
 """A method of a user's own that holds interfaces: one class serves supports and glue alike."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -44,6 +44,26 @@ class Carpet(Imposition):
         return STIFFNESS / 2 * float(np.sum(self.interface.area[:, None] * jump**2))
 
 
+@dataclass(frozen=True)
+class Bed(Carpet):
+    """The same, which may be laid in ground that carries a stress at first."""
+
+    stretch: Floats | float = 0.0
+
+    @property
+    def springs(self) -> Floats:
+        return STIFFNESS * self.interface.area
+
+    def laid(self, stretch: Floats) -> "Bed":
+        return replace(self, stretch=stretch)
+
+    def point_forces(self, state: State, jump: Floats) -> Floats:
+        return super().point_forces(state, jump - self.stretch)
+
+    def laid_energy(self, state: State, jump: Floats) -> float:
+        return -STIFFNESS * float(np.sum(self.interface.area[:, None] * jump * self.stretch))
+
+
 BAR = pulled_bar(
     [text.material("m", 100.0, 0.0, None)],
     [("left", "m"), ("right", "m")],
@@ -65,6 +85,21 @@ def test_one_class_of_ones_own_holds_supports_and_glue_on_every_cover(cover: str
     assert done.history["monitor:end:ux"][-1] == pytest.approx(2 / 100 + 2 / STIFFNESS, rel=1e-9)
     assert done.history["reaction:left:x"][-1] == pytest.approx(-1.0, rel=1e-9)
     assert done.history["support_energy"][-1] == pytest.approx(2 * 0.5 / STIFFNESS, rel=1e-9)
+
+
+@pytest.mark.parametrize("cover", COVERS)
+@pytest.mark.parametrize(("springs", "way"), [("Bed", 0.0), ("Carpet", 1 / STIFFNESS)])
+def test_springs_of_ones_own_that_can_be_laid_carry_the_initial_stress(
+    cover: str, springs: str, way: float
+) -> None:
+    # The pull of 1 holds the bar in balance; springs laid without stress open by 1 / 50.
+    stress = '[[initial_stresses]]\nblock = "all"\nstress = [1.0, 0.0, 0.0]\n'
+    chosen = COVERS[cover] + f'[supports]\nmethod = "{__name__}:{springs}"\n'
+    scene = parse_scene(BAR + stress, "bar")
+    done = nmm.run(scene, parse_formulation(chosen), allow_code=[__name__])
+    assert done.summary.status == "converged", done.summary.sentence
+    assert done.history["monitor:end:ux"][-1] == pytest.approx(way, rel=1e-9, abs=1e-12)
+    assert done.history["reaction:left:x"][-1] == pytest.approx(-1.0, rel=1e-9)
 
 
 def test_an_unknown_method_is_told_by_its_line() -> None:
