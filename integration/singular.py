@@ -24,6 +24,7 @@ import numpy.typing as npt
 
 from integration import gauss
 from integration.arrays import Floats, Ints
+from integration.plane_vectors import clockwise
 from integration.polygons import Polygons
 from integration.ragged import within
 from integration.rules import PointRule
@@ -77,7 +78,7 @@ def apex_rule(apex: Floats, start: Floats, end: Floats, order: int) -> TipRule:
     last = np.einsum("ij,ij->i", q, along) / reach
     span = _arcsinh_difference(first, last, length / reach)
     piece, s, ws = _pieces(np.arcsinh(first), span, max(_FEWEST, order + 4))
-    foot = height[:, None] * np.stack([along[:, 1], -along[:, 0]], axis=1)
+    foot = height[:, None] * clockwise(along)
     on_edge = foot[piece, None] + (reach[piece, None] * np.sinh(s))[..., None] * along[piece, None]
     over_edge = (height * reach)[piece, None] * np.cosh(s) * ws
     u, wu = gauss.interval(order + 2)

@@ -6,8 +6,9 @@ from scipy.sparse import csc_array
 from covers.approximation.groups.physical_covers import PhysicalCovers
 from covers.local_functions.polynomials import Kinds
 from integration.arrays import Floats
+from integration.plane_vectors import QUARTER_TURN
 
-STILL, TURN = np.zeros((2, 2)), np.array([[0.0, -1.0], [1.0, 0.0]])
+STILL = np.zeros((2, 2))
 
 
 def rigid_modes(
@@ -30,7 +31,11 @@ def rigid_modes(
         (C, 2) nodes of weights of linear precision, at which covers of any degree take the values
         of the field; None to represent the field in every cover.
     """
-    fields = [(np.array([1.0, 0.0]), STILL), (np.array([0.0, 1.0]), STILL), (np.zeros(2), TURN)]
+    fields = [
+        (np.array([1.0, 0.0]), STILL),
+        (np.array([0.0, 1.0]), STILL),
+        (np.zeros(2), QUARTER_TURN),
+    ]
     return _modes(fields, kinds, covers, n_unknowns, body_centroid, nodes)
 
 

@@ -8,6 +8,7 @@ from covers.approximation.manifold import Manifold
 from covers.approximation.rows import Rows
 from integration.arrays import Floats, Ints
 from integration.contraction import contract, some
+from integration.plane_vectors import counterclockwise
 from nmm.assembly.state import Frames, State
 
 
@@ -33,7 +34,7 @@ class MaterialPoints:
         """Return the current place (m, 2)."""
         local = self.arm + self.rows.apply(deformation)
         if frames.tilt is not None:
-            across = np.stack([-self.arm[:, 1], self.arm[:, 0]], axis=1)
+            across = counterclockwise(self.arm)
             local = local + frames.tilt[self.body, None] * across
         return frames.centre[self.body] + frames.to_global(self.body, local)
 
@@ -47,7 +48,7 @@ class MaterialPoints:
         assert frames.way is not None
         local = self.rows.apply(deformation)
         if frames.tilt is not None:
-            across = np.stack([-self.arm[:, 1], self.arm[:, 0]], axis=1)
+            across = counterclockwise(self.arm)
             local = local + frames.tilt[self.body, None] * across
         found = frames.way[self.body] + frames.to_global(self.body, local)
         if some(frames.angle):

@@ -5,7 +5,7 @@ from scipy.sparse import coo_array, csc_array, csr_array
 
 from covers.approximation.own_rule import own_rule
 from integration.arrays import Floats
-from integration.plane_vectors import cross
+from integration.plane_vectors import counterclockwise, cross
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 
@@ -64,7 +64,7 @@ def momenta(model: Model, deformation: Floats) -> csr_array:
     rule = own_rule(manifold)
     at = manifold.rows(rule.owner, rule.points)
     away = at.apply(deformation)
-    across = np.stack([-away[:, 1], away[:, 0]], axis=1)
+    across = counterclockwise(away)
     share = model.density[rule.owner] * model.thickness if heavy else 1.0
     values = ((share * rule.weights)[:, None] * at.along(across)).ravel()
     row = 3 * manifold.element_body[rule.owner] + 2

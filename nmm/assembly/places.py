@@ -7,6 +7,7 @@ import shapely
 
 from covers.approximation.manifold import Manifold
 from integration.arrays import Bools, Floats, Ints
+from integration.plane_vectors import clockwise
 from integration.segments import segment_rule
 from nmm.assembly.material_points import MaterialPoints, material_points
 
@@ -131,7 +132,7 @@ def on_parts(manifold: Manifold, edge: Ints, start: Floats, end: Floats, order: 
     q = weight.shape[1]
     elements = np.repeat(edges.element[edge], q)
     along = edges.end[edge] - edges.start[edge]
-    normal = np.stack([along[:, 1], -along[:, 0]], axis=1) / np.hypot(*along.T)[:, None]
+    normal = clockwise(along) / np.hypot(*along.T)[:, None]
     flat = points.reshape(-1, 2)
     return Place(
         material_points(manifold, elements, flat),

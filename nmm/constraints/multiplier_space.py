@@ -14,6 +14,7 @@ from scipy.sparse import csr_array
 
 from integration.arrays import Bools, Floats, Ints
 from integration.monomials import evaluate, exponents
+from integration.plane_vectors import counterclockwise
 from nmm.assembly.model import Model
 from nmm.constraints.interface import Interface
 
@@ -67,7 +68,7 @@ def pieces_of(model: Model, interface: Interface) -> FacePieces:
     at = np.searchsorted(piece, np.arange(len(length)))
     normal = place.normal[at]
     # The material is on the left of an edge, and its normal points to the right.
-    along = np.stack([-normal[:, 1], normal[:, 0]], axis=1) * length[:, None] / 2
+    along = counterclockwise(normal) * length[:, None] / 2
     line = manifold.element_body[place.elements[at]]
     if interface.second is not None:
         other = manifold.element_body[interface.second.elements[at]]

@@ -7,6 +7,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from integration.contraction import contract
+from integration.plane_vectors import clockwise
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.constraints.imposition import Imposition, Method
@@ -117,7 +118,7 @@ def joint_springs(interface: Interface, stiffness: Floats) -> Springs:
     """Springs of ``stiffness`` (m, 2), normal and shear, in Pa/m between two bodies."""
     assert interface.first.normal is not None
     normal = interface.first.normal
-    axes = np.stack([normal, np.stack([normal[:, 1], -normal[:, 0]], axis=1)], axis=1)
+    axes = np.stack([normal, clockwise(normal)], axis=1)
     stiff = interface.area[:, None] * stiffness
     return Springs(interface, np.einsum("mka,mk,mkb->mab", axes, stiff, axes))
 

@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from integration.arrays import Floats
+from integration.plane_vectors import QUARTER_TURN
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 
@@ -74,5 +75,4 @@ def turned(state: State) -> Floats:
     turn, tilt = state.frames.rotation, state.frames.tilt
     if tilt is None:
         return turn
-    across = np.array([[0.0, -1.0], [1.0, 0.0]])
-    return np.asarray(turn @ (np.eye(2) + tilt[:, None, None] * across))
+    return np.asarray(turn @ (np.eye(2) + tilt[:, None, None] * QUARTER_TURN))

@@ -13,6 +13,7 @@ import numpy as np
 
 from covers.approximation.singular.branches import branches
 from integration.arrays import Floats, Ints
+from integration.plane_vectors import clockwise
 from integration.rules import polygon_rule
 from integration.segments import graded_rule, segment_rule, spread_rule
 from integration.singular import tip_rule
@@ -288,4 +289,4 @@ def _outer(a: Floats, b: Floats) -> Floats:
 def _normals(start: Floats, end: Floats) -> Floats:
     """Outward unit normals (n, 2) of edges with the material on their left."""
     along = (end - start) / np.hypot(*(end - start).T)[:, None]
-    return np.stack([along[:, 1], -along[:, 0]], axis=1)
+    return clockwise(along)

@@ -14,6 +14,7 @@ from covers.change.inheritance import inherited
 from covers.change.parentage import Parentage
 from covers.change.transfer import Transfer
 from integration.arrays import Floats
+from integration.plane_vectors import counterclockwise
 from nmm.assembly.model import Model
 from nmm.assembly.state import Frames, State
 from nmm.assembly.transfer.history import carried_history
@@ -55,7 +56,7 @@ def _frames(old: Model, new: Model, kin: Parentage, frames: Frames, declared: Fr
     parent = np.maximum(kin.bodies.main, 0)
     arm = new.manifold.body_centroid - old.manifold.body_centroid[parent]
     tilt = np.zeros(len(parent)) if frames.tilt is None else frames.tilt[parent]
-    local = arm + tilt[:, None] * np.stack([-arm[:, 1], arm[:, 0]], axis=1)
+    local = arm + tilt[:, None] * counterclockwise(arm)
     far = np.zeros_like(frames.centre) if frames.way is None else frames.way
     shift = frames.to_global(parent, local)
     turned = np.einsum("bij,bj->bi", frames.turn[parent], local) + local - arm

@@ -15,6 +15,7 @@ from scipy.sparse import csr_array
 
 from covers.approximation.rows import row_matrix
 from integration.arrays import Bools, Floats, Ints
+from integration.plane_vectors import clockwise
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
@@ -22,7 +23,6 @@ from nmm.assembly.tractions.average import AverageTraction
 from nmm.assembly.tractions.donors import Flux, added_traction, in_global_axes
 from nmm.contact.bonds.turning import turning_share
 from nmm.contact.laws.contact_laws import ContactLaws
-from nmm.contact.points.boundary_points import tangents
 from nmm.contact.points.contact_points import TIED, ContactPoints
 from nmm.errors import FormulationError
 
@@ -132,7 +132,7 @@ class ConsistentBonds:
                 row_matrix(unknowns, -np.einsum("kc,kcl->kl", axis, values), self.n_unknowns, True),
                 np.einsum("kc,kc->k", axis, added),
             )
-            for axis in (contacts.normal, tangents(contacts.normal))
+            for axis in (contacts.normal, clockwise(contacts.normal))
         )
         pull, drag = (rows @ state.deformation + more for rows, more in (normal, shear))
         return (pull, normal[0]), (drag, shear[0])

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from integration.arrays import Floats, Ints
-from integration.plane_vectors import cross
+from integration.plane_vectors import clockwise, cross
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +47,7 @@ class Surface:
     @cached_property
     def normal(self) -> Floats:
         """(n, 2) outward unit normals: the directions turned clockwise."""
-        return np.stack([self.direction[:, 1], -self.direction[:, 0]], axis=1)
+        return clockwise(self.direction)
 
     @cached_property
     def length(self) -> Floats:

@@ -10,13 +10,13 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from integration.contraction import contract
+from integration.plane_vectors import clockwise
 from nmm.assembly.model import Model
 from nmm.assembly.tractions.donors import across
 from nmm.contact.detection.joints import Joints, find_joints, joint_ends, joint_points
 from nmm.contact.detection.surface import Surface, pair_key
 from nmm.contact.detection.tolerances import ANGLE, JOINT
 from nmm.contact.laws.contact_laws import ContactLaws
-from nmm.contact.points.boundary_points import tangents
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.joint_book import JointBook
 from nmm.contact.problem.step_problem import STICK
@@ -77,7 +77,7 @@ def taken_on_way(points: ContactPoints, before: Surface, after: Surface) -> floa
     )
     way = ends[0] - starts[0] - (ends[1] - starts[1])
     pull, shear = points.normal_force[:, None], points.shear_force[:, None]
-    return float(np.sum((pull * points.normal + shear * tangents(points.normal)) * way))
+    return float(np.sum((pull * points.normal + shear * clockwise(points.normal)) * way))
 
 
 def _stretched(
@@ -141,7 +141,7 @@ def _traction(
     sides: Sides, normal: Floats, model: Model, stress: StressIn
 ) -> tuple[Floats, Floats, Floats]:
     """Pull and shear (m,) at points (Pa), the mean of both sides, and where these lie along (m)."""
-    boundary, way = model.manifold.boundary, tangents(normal)
+    boundary, way = model.manifold.boundary, clockwise(normal)
     places = [boundary.at(edge, parameter) for edge, parameter in sides]
     a, b = (
         stress(boundary.element[edge], place)

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools, Floats
+from integration.plane_vectors import clockwise
 from nmm.contact.detection.surface import Surface
-from nmm.contact.points.boundary_points import tangents
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.continued.tracking import Apart
 
@@ -76,4 +76,4 @@ class JointFaces:
 
 def across(along: Floats) -> Floats:
     """Unit normals (m, 2) of vectors along lines between faces, from b to a."""
-    return tangents(along / np.hypot(*along.T)[:, None])
+    return clockwise(along / np.hypot(*along.T)[:, None])

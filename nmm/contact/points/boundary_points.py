@@ -110,8 +110,3 @@ def sides(manifold: Manifold) -> Sides:
         material_points(manifold, edges.element, edges.start),
         material_points(manifold, edges.element, edges.end),
     )
-
-
-def tangents(normal: Floats) -> Floats:
-    """Return the normals (m, 2) turned clockwise: (0, 1) gives (1, 0)."""
-    return np.stack([normal[:, 1], -normal[:, 0]], axis=1)

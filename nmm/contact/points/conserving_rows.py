@@ -21,12 +21,12 @@ from scipy.sparse import csr_array
 
 from covers.approximation.rows import Rows, row_matrix
 from integration.arrays import Bools, Floats
-from integration.plane_vectors import cross, dot
+from integration.plane_vectors import clockwise, cross, dot
 from nmm.assembly.material_points import MaterialPoints
 from nmm.assembly.state import State
 from nmm.contact.points.bent_faces import Line, face_lines
 from nmm.contact.points.between_faces import EdgeShares, across
-from nmm.contact.points.boundary_points import Sides, tangents
+from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.contact_rows import ContactRows
 from nmm.contact.points.joint_points import JointSites, padded
@@ -94,7 +94,7 @@ def slopes(along: Pair, apart: Pair, joint: Bools) -> tuple[Pair, Pair]:
     one, other = (_norm(t) for t in along)
     inverse, over = (1 / one + 1 / other) / 2, one * other * (one + other)
     stretched = mean(_each(cross, apart, along))[:, None] / over
-    gap = -inverse * tangents(way) - 2 * stretched * half, inverse * tangents(half)
+    gap = -inverse * clockwise(way) - 2 * stretched * half, inverse * clockwise(half)
     # A joint slips as it opens; along an edge that stretches, places stretch.
     length, place = (one + other) / 2, mean(_each(dot, apart, along))[:, None]
     inverse = np.where(joint, inverse, length * (one**-2 + other**-2) / 2)

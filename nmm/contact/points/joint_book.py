@@ -7,11 +7,11 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from integration.contraction import contract
+from integration.plane_vectors import clockwise
 from nmm.contact.detection.contacts import Contacts
 from nmm.contact.detection.surface import Surface, unordered_key
 from nmm.contact.detection.tolerances import JOINT_LEFT, WHOLLY_HELD
 from nmm.contact.points.between_faces import JointFaces
-from nmm.contact.points.boundary_points import tangents
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.problem.step_problem import BROKEN
 
@@ -86,7 +86,7 @@ class JointBook:
         if not len(p):
             return p
         normal, apart = faces.normal(p), faces.apart(p)
-        stretch = contract("ij,ij->i", apart, tangents(normal))
+        stretch = contract("ij,ij->i", apart, clockwise(normal))
         return replace(
             p,
             normal=normal,
@@ -103,7 +103,7 @@ class JointBook:
             return self
         normal, apart = faces.normal(points), faces.apart(points)
         opened = np.maximum(contract("ij,ij->i", apart, normal), 0.0)
-        far = np.hypot(opened, contract("ij,ij->i", apart, tangents(normal)))
+        far = np.hypot(opened, contract("ij,ij->i", apart, clockwise(normal)))
         lost = (far > JOINT_LEFT * points.length) & ~points.bonded
         parted = self.joint[lost]
         gone = np.isin(self.joint, parted) & ~points.bonded

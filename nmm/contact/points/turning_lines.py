@@ -10,9 +10,10 @@ store.
 import numpy as np
 
 from integration.arrays import Floats
+from integration.plane_vectors import clockwise
 from nmm.assembly.state import State
 from nmm.contact.points.between_faces import EdgeShares, across
-from nmm.contact.points.boundary_points import Sides, tangents
+from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.contact_rows import Turn
 from nmm.contact.points.joint_points import JointSites
@@ -42,7 +43,7 @@ def line_turns(
         apart = np.asarray(one - other)
     else:
         apart = sites.apart(contacts, *place)[at] if sites.whole else sites.apart(joints, *place)
-    levers = (np.einsum("ij,ij->i", apart, axis)[:, None] for axis in (tangents(normal), -normal))
+    levers = (np.einsum("ij,ij->i", apart, axis)[:, None] for axis in (clockwise(normal), -normal))
     gained = [lever * turn.reshape(len(at), -1) for lever in levers]
 
     def add(normal_rows: Floats, tangent_rows: Floats) -> None:

@@ -7,12 +7,10 @@ import numpy as np
 
 from covers.approximation.manifold import Manifold
 from integration.arrays import Floats
+from integration.plane_vectors import counterclockwise
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.effects.base import Effect, Setup
-
-# Rows turned by it are turned by 90 degrees, counter-clockwise.
-QUARTER_TURN = np.array([[0.0, 1.0], [-1.0, 0.0]])
 
 
 class InitialVelocity(Effect):
@@ -38,7 +36,7 @@ class InitialVelocity(Effect):
             regions = setup.regions(item.block)
             chosen = slice(None) if regions is None else regions[manifold.element_region]
             bodies, spin = np.unique(manifold.element_body[chosen]), item.angular_velocity
-            around = spin * apart[bodies] @ QUARTER_TURN
+            around = spin * counterclockwise(apart[bodies])
             motion[bodies] = np.column_stack([item.velocity + around, np.full(len(bodies), spin)])
         return cls(setup.model, motion)
 

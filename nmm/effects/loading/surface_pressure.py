@@ -8,12 +8,10 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats
+from integration.plane_vectors import QUARTER_TURN, clockwise
 from nmm.assembly.places import Place
 from nmm.assembly.state import State
 from nmm.effects.base import Instant, Span, StepForce
-
-# Clockwise rotation: from the tangent of a surface to its outward normal.
-CLOCKWISE = np.array([[0.0, 1.0], [-1.0, 0.0]])
 
 
 @dataclass(frozen=True)
@@ -55,7 +53,7 @@ class SurfacePressure:
             places = self.place.points.place(state.frames, state.deformation)
         shape = (*self.slopes.shape[:2], 2)
         along = (self.slopes @ places.reshape(shape)).reshape(-1, 2)
-        return np.asarray(-self.factor(end) * self.size * along @ CLOCKWISE.T)
+        return np.asarray(-self.factor(end) * self.size * clockwise(along))
 
     def stiffness(self, n: int) -> csr_array:
         """Load stiffness (n, n) at factor 1: minus the derivative of the force by the unknowns.
@@ -64,7 +62,7 @@ class SurfacePressure:
         """
         rows = self.place.points.rows.matrix(n)
         k, q, _ = self.slopes.shape
-        turned = np.einsum("kij,ab->kiajb", self.slopes, CLOCKWISE).reshape(k, 2 * q, 2 * q)
+        turned = np.einsum("kij,ab->kiajb", self.slopes, -QUARTER_TURN).reshape(k, 2 * q, 2 * q)
         first = np.arange(k)[:, None, None] * 2 * q + np.arange(2 * q)
         index = np.broadcast_to(first, turned.shape)
         entries = (turned.ravel(), (np.swapaxes(index, 1, 2).ravel(), index.ravel()))
@@ -119,7 +117,7 @@ def along_surface(place: Place) -> Floats:
     normal = place.normal.reshape(k, q, 2)[:, 0]
     way = np.einsum("ij,kjc->kic", slopes, ends).sum(axis=1)
     # With the material on the left, the outward normal is the tangent turned clockwise.
-    sense = np.sign(np.sum(way @ CLOCKWISE.T * normal, axis=1))
+    sense = np.sign(np.sum(clockwise(way) * normal, axis=1))
     return np.asarray(sense[:, None, None] * slopes)
 
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from integration.plane_vectors import counterclockwise
 from nmm.assembly.state import State
 from nmm.effects.base import Setup
 from nmm.effects.members.chains import NONE, Chains
@@ -92,7 +93,7 @@ def _links(setup: Setup, crossed: JointsCrossed, ends: Floats, length: Floats) -
     """Return links of lengths (m,) across bars with ``ends`` (m, 2, 2), at their crossings."""
     first, along = ends[:, 0], ends[:, 1] - ends[:, 0]
     middle = first + crossed.share[:, None] * along
-    across = np.stack([-along[:, 1], along[:, 0]], axis=1) / np.hypot(*along.T)[:, None]
+    across = counterclockwise(along) / np.hypot(*along.T)[:, None]
     half = length[:, None] / 2 * across
     low = MemberEnds.at(setup, middle - half, crossed.before)
     high = MemberEnds.at(setup, middle + half, crossed.after)

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from integration.arrays import Floats
+from integration.plane_vectors import counterclockwise
 from nmm.assembly.places import Place, on_segment
 from nmm.effects.base import Setup
 from nmm.effects.members.ends import MemberEnds, nowhere
@@ -94,7 +95,7 @@ def _sides(
     """Place, directions (m, 2), law and area (m,) (m2) across and along the edge."""
     assert place.normal is not None
     across = -place.normal
-    along = np.stack([-across[:, 1], across[:, 0]], axis=1)
+    along = counterclockwise(across)
     area = place.weight * setup.model.thickness
     normal = Uniaxial(table.normal_stiffness, pulls=table.carries == "both")
     shear = Uniaxial(table.shear_stiffness)

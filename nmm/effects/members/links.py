@@ -13,7 +13,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Floats, Ints
-from integration.plane_vectors import cross
+from integration.plane_vectors import counterclockwise, cross
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.effects.members.ends import MemberEnds
@@ -37,7 +37,7 @@ class LinesOfAction:
     @property
     def normal(self) -> Floats:
         """(m, 2) unit vectors across them."""
-        return np.stack([-self.along[:, 1], self.along[:, 0]], axis=1)
+        return counterclockwise(self.along)
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,7 @@ import shapely
 
 from covers.change.relation import Relation
 from integration.arrays import Bools, Floats, Ints
+from integration.plane_vectors import clockwise
 from integration.rules import PointRule
 from integration.segments import graded_rule
 from nmm.assembly.material_points import MaterialPoints, material_points
@@ -140,7 +141,7 @@ def tractions_on_new_faces(
     points, weights = graded_rule(start, end, tip[front], TRACTION_ORDER)
     q = weights.shape[1]
     flat, along = points.reshape(-1, 2), (end - start) / np.hypot(*(end - start).T)[:, None]
-    out = np.repeat(np.stack([along[:, 1], -along[:, 0]], axis=1), q, axis=0)
+    out = np.repeat(clockwise(along), q, axis=0)
     pull = _tractions(change, np.repeat(edges.element[one], q), flat, out, added)
     force = model.thickness * weights.ravel()[:, None] * pull
     # The same points on the opposite edges, so that forces are pairs to the last digit.

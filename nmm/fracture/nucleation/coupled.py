@@ -18,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools, Floats
+from integration.plane_vectors import counterclockwise
 from nmm.fracture.acting_stress import StressField
 from nmm.fracture.nucleation.line_criterion import LineEvaluation, OpeningLines
 from nmm.fracture.nucleation.line_stress import LineStress
@@ -68,7 +69,7 @@ class CoupledCriterion:
         pulled = (
             PrincipalStresses.of(mean.reshape(-1, 3)).larger.reshape(known.shape) / self.strength
         )
-        normal = np.stack([-lines.way[:, 1], lines.way[:, 0]], axis=1)
+        normal = counterclockwise(lines.way)
         across = [np.einsum("kni,ki->kn", one, _across(normal)) for one in (ahead, behind)]
         depth = along.depth(lines.point, lines.way, lines.body, ~lines.inside & ~lines.notched)
         freed = self._freed(across[0], across[1], lines, depth)

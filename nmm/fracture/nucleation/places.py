@@ -7,6 +7,7 @@ import shapely
 
 from covers.cutting.cut_cells import CutCells
 from integration.arrays import Bools, Floats, Ints
+from integration.plane_vectors import counterclockwise
 from nmm.geometry.geometry import Geometry
 
 # Turn (rad) from which a vertex is a corner; those of polygons that stand for holes are smaller.
@@ -52,7 +53,7 @@ class NucleationPlaces:
         edges = cut.boundary
         along = edges.end - edges.start
         along /= np.hypot(*along.T)[:, None]
-        normal = np.stack([-along[:, 1], along[:, 0]], axis=1)
+        normal = counterclockwise(along)
         bisector = normal + normal[edges.previous]
         middle = cut.elements.centroids
         free = np.flatnonzero(edges.crack < 0)

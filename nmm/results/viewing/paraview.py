@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from integration.arrays import Floats
+from integration.plane_vectors import clockwise
 from nmm.errors import DamageError
 from nmm.quantity import ENDS, SPOT, Quantity
 from nmm.results.frame import Frame, Topology
@@ -252,6 +253,6 @@ def _components(frame: Frame) -> dict[str, tuple[str, ...]]:
 def contact_vectors(frame: Frame) -> Floats:
     """(C, 2) force on side b at each contact point, N."""
     normal = frame.contact_normal
-    tangent = np.stack([normal[:, 1], -normal[:, 0]], axis=1)
+    tangent = clockwise(normal)
     force: Floats = frame.contact_force[:, :1] * normal + frame.contact_force[:, 1:] * tangent
     return force

@@ -5,6 +5,7 @@ import shapely
 
 from integration.arrays import Bools, Floats, Ints
 from integration.permutations import inverse
+from integration.plane_vectors import cross
 from integration.polygons import Polygons
 from nmm.contact.detection.grid import pairs_by_grid
 from nmm.contact.detection.surface import Surface
@@ -50,7 +51,7 @@ def _apart(surface: Surface, vertex: Ints, edge: Ints) -> Bools:
     """Pairs of which vertex and edge can meet: across a reentrant corner at the nearest."""
     before, after = surface.previous, surface.next
     u = surface.direction[before]
-    turn = u[:, 0] * surface.direction[:, 1] - u[:, 1] * surface.direction[:, 0]
+    turn = cross(u, surface.direction)
     back = (u * surface.direction).sum(axis=1) < 0.0
     reentrant = (turn <= 1e-9) & ((turn < 0.0) | back)
     close = (edge == vertex) | (edge == before[vertex])

@@ -3,16 +3,16 @@
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from integration.plane_vectors import clockwise
 from nmm.assembly.applied_forces import AppliedForces
 from nmm.assembly.model import Model
-from nmm.contact.points.boundary_points import tangents
 from nmm.contact.points.contact_points import ContactPoints
 
 
 def on_faces(model: Model, contacts: ContactPoints) -> AppliedForces:
     """Return the forces that contacts left on either face of each crack."""
     n, p = contacts.normal, contacts
-    force = p.normal_force[:, None] * n + p.shear_force[:, None] * tangents(n)
+    force = p.normal_force[:, None] * n + p.shear_force[:, None] * clockwise(n)
     edge, parameter = (np.concatenate(both) for both in zip(*p.sides, strict=True))
     force, length = np.concatenate([-force, force]), np.tile(p.length, 2)
     kept = np.flatnonzero((model.cut.boundary.crack[edge] >= 0) & force.any(axis=1))

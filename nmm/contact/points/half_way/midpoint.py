@@ -16,10 +16,11 @@ from scipy.sparse import csr_array
 
 from integration.arrays import Floats
 from integration.contraction import contract
+from integration.plane_vectors import clockwise
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.contact.points.between_faces import EdgeShares
-from nmm.contact.points.boundary_points import Sides, tangents
+from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.contact_rows import ContactRows, contact_rows
 from nmm.contact.points.half_way.midpoint_kernel import add_turns
@@ -55,7 +56,7 @@ def midpoint_rows(
     line = shares.along(contacts, surface)
     stretch = np.hypot(*line.T)[:, None]
     along = line / stretch
-    direction = tangents(along)
+    direction = clockwise(along)
     side_a = sides.at(contacts.edge_a, contacts.parameter_a)
     place_a = side_a.place(half.frames, half.deformation)
     foot = contract("ij,ij->i", place_a - surface.start[edge], along) / surface.length[edge]
@@ -65,7 +66,9 @@ def midpoint_rows(
 
     def turn(normal: Floats, tangent: Floats) -> None:
         # How far apart sides are along tangent and normal: what lines that turn move.
-        levers = tuple(contract("ij,ij->i", apart, way) for way in (tangents(direction), direction))
+        levers = tuple(
+            contract("ij,ij->i", apart, way) for way in (clockwise(direction), direction)
+        )
         factors = (shares.a / stretch).ravel(), (shares.b / stretch).ravel()
         turns = sides.turns(contacts.edge_a), sides.turns(edge)
         bent = side_a.rows.apply(half.deformation), side_b.rows.apply(half.deformation)

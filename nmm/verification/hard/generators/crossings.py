@@ -7,6 +7,7 @@ import numpy as np
 import shapely
 
 from integration.arrays import Floats
+from integration.plane_vectors import counterclockwise
 from nmm.verification.hard.cases.base import Document, HardCase, HardClass
 from nmm.verification.hard.cases.parts import over_parts
 from nmm.verification.hard.cases.writing import block, held, in_time, rock
@@ -51,7 +52,7 @@ def apart(blocks: list[Floats], gap: float, random: np.random.Generator) -> list
         away = (centre - middle) / np.linalg.norm(centre - middle)
         turn = random.uniform(-0.1, 0.1) * gap
         arm = points - centre
-        quarter = np.stack([-arm[:, 1], arm[:, 0]], axis=1)
+        quarter = counterclockwise(arm)
         cosine, sine = np.cos(turn), np.sin(turn)
         moved.append(centre + 2.0 * gap * away + cosine * arm + sine * quarter)
     return moved

@@ -8,8 +8,8 @@ from scipy.sparse import csr_array, diags_array
 
 import nmm
 from covers.approximation.rows import row_matrix
+from integration.plane_vectors import clockwise
 from nmm.assembly.motion import middle
-from nmm.contact.points.boundary_points import tangents
 from nmm.contact.points.contact_rows import contact_rows
 from nmm.contact.points.half_way.midpoint import body_projection, midpoint_rows
 from nmm.frozen import with_parts
@@ -59,7 +59,7 @@ def by_sparse_matrices(points, sides, model, start, half):
     turn = np.einsum("mcl,mc->ml", sides.turns(edges[1]), local)
     stretch = np.hypot(*(surface.end - surface.start).T)[edges[1]]
     turning = row_matrix(side_b.rows.unknowns, turn / stretch[:, None], n)
-    rows, across = contact_rows(there, sides, half.frames), tangents(normal)
+    rows, across = contact_rows(there, sides, half.frames), clockwise(normal)
     for part, axis, way in ((rows.normal, normal, across), (rows.tangent, across, -normal)):
         lever = np.einsum("ij,ij->i", apart, way)
         rigid = csr_array((len(points), 3 * model.manifold.n_bodies))
