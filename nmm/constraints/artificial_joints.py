@@ -13,6 +13,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface
+from nmm.constraints.laid_springs import laid_under_stress
 from nmm.constraints.nitsche.linear_matter import check_linear
 from nmm.constraints.shared_edges import gauss_interface, joint_interface, shared_edges
 from nmm.constraints.springs import Springs
@@ -37,6 +38,8 @@ class ArtificialJoints(TiedInterfaces):
         assert glue is not None
         rule = setup.formulation.contact.joint_points
         ties = cls.ties_of(setup.model, glue, rule, setup.start)
+        if setup.scene.initial_stresses:
+            ties = laid_under_stress(setup, ties)
         return cls(ties, setup.model.manifold.n_unknowns, turning(setup))
 
     @staticmethod

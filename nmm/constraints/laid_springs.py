@@ -6,9 +6,10 @@ import numpy as np
 
 from integration.arrays import Bools, Floats
 from integration.contraction import contract
+from nmm.assembly.places import Place
 from nmm.assembly.tractions.donors import across
 from nmm.constraints.imposition import Imposition
-from nmm.constraints.interface import Interface
+from nmm.contact.laws.laid_under_stress import with_moment
 from nmm.effects.base import Setup
 
 # Of the length of an edge: points lie within a joint up to rounding.
@@ -19,7 +20,8 @@ def laid_under_stress(setup: Setup, ties: Sequence[Imposition]) -> list[Impositi
     """Return ties whose springs along edges carry the traction of the initial stress at first.
 
     Between bodies it is the mean of both sides. Against the ground it is held back where another
-    body takes it. Springs at points carry none, and other methods know of the stress themselves.
+    body takes it. Springs at points are left as they are (`points_under_stress`), and other methods
+    know of the stress themselves.
     """
     return [tie.laid(_stretches(setup, tie)) for tie in ties]
 
@@ -44,13 +46,17 @@ def _stretches(setup: Setup, tie: Imposition) -> Floats:
     ground, interface = StressAtStart.declared(setup).within(setup.model), tie.interface
     sides = interface.sides
     stress = np.mean([ground(side.elements, side.position) for side in sides], axis=0)
-    traction = interface.held * across(stress, normal)
+    place, own = interface.first, across(stress, normal).T
+    assert place.piece is not None
+    line = contract("ij,ij->i", place.position, np.stack([normal[:, 1], -normal[:, 0]], axis=1))
+    even = [with_moment(place.piece, place.weight, line, part) for part in own]
+    traction = interface.held * np.stack(even, axis=1)
     if interface.second is None:
-        traction = np.where(_taken(setup, interface)[:, None], 0.0, traction)
-    return _under(springs, interface.area[:, None] * traction)
+        traction = np.where(faces_another(setup, place)[:, None], 0.0, traction)
+    return stretched(springs, interface.area[:, None] * traction)
 
 
-def _under(stiffness: Floats, force: Floats) -> Floats:
+def stretched(stiffness: Floats, force: Floats) -> Floats:
     """Return the way (m, 2) of springs at forces (m, 2); none of springs that are not there."""
     if stiffness.ndim > 1:
         return np.asarray(np.linalg.solve(stiffness, force[:, :, None])[:, :, 0], dtype=float)
@@ -58,15 +64,15 @@ def _under(stiffness: Floats, force: Floats) -> Floats:
     return np.where(there[:, None], force / np.where(there, stiffness, 1.0)[:, None], 0.0)
 
 
-def _taken(setup: Setup, interface: Interface) -> Bools:
-    """Points (m,) of a support that face another body, whose contact or bond has the traction."""
+def faces_another(setup: Setup, place: Place) -> Bools:
+    """Points (m,) on edges that face another body, whose contact or bond has the traction."""
     from nmm.constraints.shared_edges import bonded_stiffness, shared_edges  # finds contacts
 
-    joints, place = shared_edges(setup.model), interface.first
+    joints = shared_edges(setup.model)
     if setup.scene.contact is None:
         _, sprung, glued = bonded_stiffness(setup, joints)
         joints = joints.take(sprung | glued)
-    found = np.zeros(len(interface), dtype=bool)
+    found = np.zeros(len(place), dtype=bool)
     assert place.edge is not None
     for edges in (joints.edge_a, joints.edge_b):  # two sides
         pair, point = np.nonzero(edges[:, None] == place.edge)

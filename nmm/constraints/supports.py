@@ -16,6 +16,7 @@ from nmm.constraints.interface import Interface, nearest
 from nmm.constraints.laid_springs import free_where, laid_under_stress, stretch_of
 from nmm.constraints.nitsche.linear_matter import method_for
 from nmm.constraints.nitsche.volume_lift import sharing
+from nmm.constraints.points_under_stress import laid_at_points
 from nmm.constraints.tied_interfaces import TiedInterfaces
 from nmm.constraints.turned_axes import turning
 from nmm.effects.acting_place import acting_place
@@ -72,7 +73,7 @@ class Supports(TiedInterfaces):
         for i, support in zip(edges, along, strict=True):
             found[i] = support
         if scene.initial_stresses:
-            found = laid_under_stress(setup, found)
+            found = laid_at_points(setup, laid_under_stress(setup, found))
         n_unknowns, in_time = setup.model.manifold.n_unknowns, scene.inertia is not None
         turns = turning(setup) if _lets_turn(setup.model, interfaces) else None
         return cls(found, n_unknowns, setup.start, in_time, turns, setup.model)

@@ -38,7 +38,7 @@ def laid_under_stress(
     points, joint = book.points, book.joint
     pull, along, line = _traction(points.sides, points.normal, model, stress)
     area = points.length * model.thickness
-    pull, along = (area * _with_moment(joint, points.length, line, part) for part in (pull, along))
+    pull, along = (area * with_moment(joint, points.length, line, part) for part in (pull, along))
     acts = ~points.tied & (points.bonded | (pull < 0))
     return replace(book, points=_stretched(points, laws, (pull, along), acts))
 
@@ -117,7 +117,7 @@ def _at_corners(
     other = np.arange(len(ends)) ^ 1
     found = []
     for part in (pull, along):  # two directions
-        force = ends.length * model.thickness * _with_moment(ends.joint, ends.length, line, part)
+        force = ends.length * model.thickness * with_moment(ends.joint, ends.length, line, part)
         force = force + np.where(count[other] == 0, force[other], 0.0)
         found.append(np.bincount(contact, force[end] / count[end], len(points)).astype(float))
     return found[0], found[1]
@@ -155,7 +155,7 @@ def _traction(
     return pull, along, line
 
 
-def _with_moment(joint: Ints, length: Floats, line: Floats, stress: Floats) -> Floats:
+def with_moment(joint: Ints, length: Floats, line: Floats, stress: Floats) -> Floats:
     """Return stresses (m,) at places (m,) along joints (m) whose moment is that of a line.
 
     Points at the ends of a joint have more of a moment than what is spread along it: they take the

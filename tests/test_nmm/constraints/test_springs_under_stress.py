@@ -14,6 +14,10 @@ COVERS = {
 }
 HELD = [(cover, method) for cover in COVERS for method in ("penalty", "nitsche", "lagrange")]
 HELD = [one for one in HELD if one[0] != "block" or one[1] == "penalty"]
+SUB_BLOCKS = (
+    'type = "sub_blocks"\nsize = 3.0\noptions = {{ mesh = "{}", glue = "{}" }}\n'
+    'functions = "monomials"\ndegree = {}\n'
+)
 MODULUS, RATIO, WEIGHT, HIGH = 50e6, 0.3, 20e3, 10.0
 # What rounding of stresses of 0.2 MPa does to springs and matter.
 STILL = 1e-12
@@ -53,6 +57,63 @@ def test_ground_under_its_weight_stands_still(cover, method):
     assert run.history["reaction:base:y"][-1] == pytest.approx(WEIGHT * 8 * HIGH, rel=1e-9)
     at_wall = 0.6 * WEIGHT * HIGH**2 / 2
     assert run.history["reaction:left:x"][-1] == pytest.approx(at_wall, rel=1e-9)
+
+
+@pytest.mark.parametrize("degree", [1, 2])
+@pytest.mark.parametrize("glue", ["springs", "nitsche"])
+@pytest.mark.parametrize("mesh", ["triangles", "voronoi"])
+def test_ground_of_sub_blocks_stands_still_whatever_glues_them(mesh, glue, degree):
+    """Springs between them carried nothing at first."""
+    more = f"[formulation.cover]\n{SUB_BLOCKS.format(mesh, glue, degree)}"
+    run = ground([more], (soil(), text.box("soil", (0, 0), (8, HIGH))))
+    assert run.summary.status == "converged", run.summary.sentence
+    assert np.abs(run.displacement).max() < STILL
+
+
+CELLS = 'type = "quads"\nsize = 2.0\ndegree = 0\n'
+
+
+def at(number: int, point: list[float], axes: str) -> str:
+    return f'[[supports]]\nname = "at {number}"\npoint = {point}\nfix = {list(axes)}\n'
+
+
+@pytest.mark.parametrize(("cover", "cells", "angle"), [("", 1, 0), ("", 1, 0.4), (CELLS, 4, 0)])
+def test_ground_held_at_points_stands_still(cover, cells, angle):
+    """Points between which all functions are linear hold what an edge would."""
+    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    corners = np.array([[0.0, 0.0], [8, 0], [8, 8], [0, 8]]) @ turn.T
+    share = np.arange(cells)[:, None] / cells
+    ring = np.concatenate(
+        [a + share * (b - a) for a, b in zip(corners, np.roll(corners, -1, 0), strict=True)]
+    )
+    block = f'[[blocks]]\nname = "body"\nmaterial = "rock"\nvertices = {corners.tolist()}\n'
+    laid = '[[initial_stresses]]\nblock = "all"\nstress = [-1e5, -2e5, 3e4]\n'
+    points = [at(i, point, "xy") for i, point in enumerate(ring.tolist())]
+    more = f"[formulation.cover]\n{cover}"
+    run = nmm.run(
+        nmm.parse_scene(text.scene('plane = "strain"\n', [soil(), block, *points, laid, more]))
+    )
+    assert run.summary.status == "converged", run.summary.sentence
+    assert np.abs(run.displacement).max() < STILL
+
+
+def test_a_block_on_two_points_between_walls_stands_still():
+    """The walls hold what is across them, the points what is below."""
+    tables = [
+        soil(),
+        text.box("soil", (0, 0), (8, HIGH)),
+        at(0, [0, 0], "y"),
+        at(1, [8, 0], "xy"),
+        at(2, [0, HIGH], "x"),
+        at(3, [0, 0], "x"),
+        support("right", [[8, 0], [8, HIGH]], "x"),
+        f'[[initial_stresses]]\nblock = "all"\nsurface = {HIGH}\nratio = 0.6\n'
+        f"unit_weight = {WEIGHT}\n",
+    ]
+    run = nmm.run(nmm.parse_scene(text.scene('plane = "strain"\n[gravity]\n', tables)))
+    assert run.summary.status == "converged", run.summary.sentence
+    assert np.abs(run.displacement).max() < STILL
+    assert run.history["reaction:at 0:y"][-1] == pytest.approx(WEIGHT * 4 * HIGH, rel=1e-9)
 
 
 @pytest.mark.parametrize("law", ["mohr_coulomb", "neo_hookean"])
