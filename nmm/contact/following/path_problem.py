@@ -136,9 +136,13 @@ class PathProblem:
         further = self.law((1 + LOADED_FURTHER) * begin.gap, (1 + LOADED_FURTHER) * begin.slip)
         return replace(begin, contacts=replace(begin.contacts, slopes=further.slopes))
 
-    def tangent(self, step: PathStep) -> csc_array:
-        """Return the matrix (n, n) by which forces answer a further increment."""
-        normal, tangent, slope = self.rows.normal, self.rows.tangent, step.contacts.tangent
+    def tangent(self, step: PathStep, slope: Floats | None = None) -> csc_array:
+        """Return the matrix (n, n) by which forces answer a further increment.
+
+        ``slope`` (m, 2, 2) are other tangents of the contacts than those of the step.
+        """
+        normal, tangent = self.rows.normal, self.rows.tangent
+        slope = step.contacts.tangent if slope is None else slope
         matrix = self.matrix if step.slope is None else csc_array(self.matrix + step.slope())
         if not len(slope):
             return matrix

@@ -1,6 +1,7 @@
 """The contact problem of a step along a path: set up, solved, reported like any other step's."""
 
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Self
 
 import numpy as np
@@ -11,6 +12,7 @@ from nmm.assembly.state import State
 from nmm.contact.bonds.tied_step import TiedBonds
 from nmm.contact.following.by_parts import follow
 from nmm.contact.following.path_problem import Bent, PathProblem, PathStep
+from nmm.contact.following.unstable_ways import unstable_ways
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.losses import ContactLosses, softening
 from nmm.contact.laws.tractions import ContactForces, contact_forces
@@ -107,7 +109,10 @@ class PosedPath:
         after = replace(contacts, history=history)
         sliding = history["plastic_slip"] - contacts.history["plastic_slip"]
         lost = self._lost(after, answer, sliding)
-        told = {"sliding": sliding, "rows": self.rows, "between": lost.beyond_means()}
+        ways = None
+        if path.target and step.converged:
+            ways = partial(unstable_ways, self.problem, step, solver)
+        told = {"ways": ways, "sliding": sliding, "rows": self.rows, "between": lost.beyond_means()}
         solved = ContactSolution(after, answer, step.iterations, lost.energy(static=True), **told)
         if self.mixed is not None:
             solved = self.mixed.told(solved, self.found)

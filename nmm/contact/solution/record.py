@@ -1,5 +1,6 @@
 """The contact solution of a step, and what is kept of an accepted step for the next one."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -46,6 +47,8 @@ class ContactSolution:
     missed
         (m,) error of linearised spring forces at the gaps that were found (N); None where springs
         are linear.
+    ways
+        Counts the ways in which a step along a path is not stable; None of other steps.
     """
 
     contacts: ContactPoints
@@ -58,6 +61,7 @@ class ContactSolution:
     between: float = 0.0
     missed: Floats | None = None
     broken: "BrokenBonds | None" = None
+    ways: Callable[[], int] | None = None
 
     @MadeOnce
     def push(self) -> Floats:

@@ -11,6 +11,7 @@ from nmm.stepping.audits.energy import energy
 from nmm.stepping.audits.equations import equations
 from nmm.stepping.audits.fields import fields
 from nmm.stepping.audits.growth import growth
+from nmm.stepping.audits.paths import paths
 from nmm.stepping.audits.softening import softening
 from nmm.stepping.audits.splitting import splitting
 from nmm.stepping.audits.steps import steps
@@ -25,6 +26,7 @@ AUDITS: tuple[Callable[[EndedRun], Findings], ...] = (
     bodies,
     growth,
     closed_cracks,
+    paths,
     softening,
     splitting,
     steps,

@@ -174,6 +174,13 @@ THRESHOLDS: dict[str, Threshold] = {
         0.5,
         "`[fracture]` in dynamics without `[[stages]]`",
     ),
+    "unstable_ways": Threshold(
+        "most independent ways in which what softens together gives way, one of which a control "
+        "holds",
+        1,
+        None,
+        "`[loading.control]`",
+    ),
     "growth_swing": Threshold(
         "angle (rad) by which pieces of a crack turn one way and at once back",
         0.2,

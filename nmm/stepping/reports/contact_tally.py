@@ -46,8 +46,11 @@ def tallied(
             share, deepest = float(over[at]), _deepest(stepper, contacts, at, gap[at], after.time)
     tally = np.bincount(contacts.state, minlength=len(NAMES)).tolist()
     counts = dict(zip(NAMES, tally, strict=True)) | {"broken": contact.broken_bonds}
+    ways = 0 if attempt.solved is None or attempt.solved.ways is None else attempt.solved.ways()
     totals = with_parts(
         totals,
+        ways=max(totals.ways, ways),
+        alike=after.load_factor if ways > 1 and totals.alike is None else totals.alike,
         stiffest=max(totals.stiffest, contact.solver.stiffest or 0.0),
         penetration=max(totals.penetration, overlap),
         overlap=share,

@@ -26,6 +26,9 @@ class Totals:
         Largest overlap of bodies where steps end, over the size (root of the area) of the smaller.
     deepest
         How deep that was, of which bodies, and when, in words; empty before any overlapped.
+    ways, alike
+        Most ways in which a step along a path was not stable, and the load factor of the first step
+        with more than one; None before any.
     largest, counts
         Contact points in each state: most of all steps, and after the last.
     watch
@@ -50,6 +53,8 @@ class Totals:
     overlap: float = 0.0
     deepest: str = ""
     stiffest: float = 0.0
+    ways: int = 0
+    alike: float | None = None
     largest: Mapping[str, int] = field(default_factory=dict)
     counts: Mapping[str, int] = field(default_factory=dict)
     watch: EventWatch = field(default_factory=EventWatch)

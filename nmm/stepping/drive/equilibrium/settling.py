@@ -111,7 +111,8 @@ def joined(first: Attempt, then: Attempt) -> Attempt:
     solved = then.solved
     if solved is not None and first.solved is not None:
         between = solved.between + first.solved.between
-        solved = replace(solved, loss=solved.loss + first.solved.loss, between=between)
+        loss, ways = solved.loss + first.solved.loss, first.solved.ways
+        solved = replace(solved, loss=loss, between=between, ways=ways)
     return replace(
         then,
         motion=max(first.motion, then.motion),

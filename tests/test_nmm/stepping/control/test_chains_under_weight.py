@@ -13,6 +13,8 @@ BONDS = {"terms": "", "springs": '[formulation.contact]\nbonds = "spring"\n'}
 
 ENERGY = 50.0
 SOFTENS = f'law = "linear_softening"\nfracture_energy = {ENERGY}\n'
+# Without it a block that hangs on a joint that softens may turn as well as fall.
+TRACK = '[[supports]]\nname = "track"\nsegment = [[0, -9], [0, 0]]\nfix = ["x"]\n'
 LED = EVENTS.replace('"events"', '"dissipation"\nenergy = 1.0')
 
 
@@ -82,7 +84,7 @@ def test_the_highest_joint_softens_by_what_it_dissipates_beside_weight(
 
     Steps were 1 and 1.6 % too long under the stress, which no load of the equation held.
     """
-    run = chain(number, stress, LED, SOFTENS)
+    run = chain(number, stress + TRACK, LED, SOFTENS)
     expected = (STRENGTH * strengths_left(run, 1) - WEIGHT * (number - 1)) / PULL
     # Of 20 J 0.04 J are those of terms at the highest of three blocks as springs take over.
     assert run.history["load_factor"] == pytest.approx(expected, abs=5 if number > 2 else 0.1)
@@ -97,6 +99,22 @@ def test_joints_of_one_strength_soften_together() -> None:
     expected = STRENGTH * strengths_left(run, 2) / PULL
     assert run.history["load_factor"] == pytest.approx(expected, abs=0.1)
     assert run.history["friction_loss"][-1] > 0.89 * 2 * ENERGY * WIDTH
+
+
+@pytest.mark.parametrize(("track", "each"), [(TRACK, 1), ("", 2)])
+@pytest.mark.parametrize("joints", [1, 2])
+def test_joints_that_soften_together_are_told_from_their_first_step_on(
+    joints: int, track: str, each: int
+) -> None:
+    """A stiff block gives way along each joint that softens above it, and turns where it may."""
+    run = chain(joints + 1, track, LED.replace("1.0", "5.0"), SOFTENS, weight="")
+    ways = joints * each
+    assert run.summary.audits["unstable_ways"] == ways
+    told = [line for line in run.summary.warnings if "audit unstable_ways" in line]
+    assert len(told) == (ways > 1)
+    # The first step takes 5 J of 25 a joint.
+    factor = STRENGTH / PULL * (1 - 0.2 / joints)
+    assert all(f"from load factor {factor:.4g}" in line for line in told)
 
 
 @pytest.mark.parametrize("energy", [50.0, 3.0])
