@@ -8,8 +8,8 @@ from integration.arrays import Bools, Floats
 from integration.contraction import contract
 from nmm.assembly.places import Place
 from nmm.assembly.tractions.donors import across
+from nmm.assembly.tractions.moments import with_moment
 from nmm.constraints.imposition import Imposition
-from nmm.contact.laws.laid_under_stress import with_moment
 from nmm.effects.base import Setup
 
 # Of the length of an edge: points lie within a joint up to rounding.

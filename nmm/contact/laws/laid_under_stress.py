@@ -13,6 +13,7 @@ from integration.contraction import contract
 from integration.plane_vectors import clockwise
 from nmm.assembly.model import Model
 from nmm.assembly.tractions.donors import across
+from nmm.assembly.tractions.moments import with_moment
 from nmm.contact.detection.joints import Joints, find_joints, joint_ends, joint_points
 from nmm.contact.detection.surface import Surface, pair_key
 from nmm.contact.detection.tolerances import ANGLE, JOINT
@@ -153,20 +154,3 @@ def _traction(
         for pair in ((traction, normal), (traction, way), (places[0], way))
     )
     return pull, along, line
-
-
-def with_moment(joint: Ints, length: Floats, line: Floats, stress: Floats) -> Floats:
-    """Return stresses (m,) at places (m,) along joints (m) whose moment is that of a line.
-
-    Points at the ends of a joint have more of a moment than what is spread along it: they take the
-    part of its slope that gives the same.
-    """
-
-    def whole(part: Floats) -> Floats:
-        return np.asarray(np.bincount(joint, length * part)[joint], dtype=np.float64)
-
-    total = whole(np.ones_like(line))
-    offset, mean = line - whole(line) / total, whole(stress) / total
-    spread = np.maximum(whole(offset**2), np.finfo(float).tiny)
-    slope = np.minimum(total**3 / 12 / spread, 1.0)
-    return np.asarray(mean + slope * (stress - mean))
