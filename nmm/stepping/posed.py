@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from covers.approximation.block_manifold import block_manifold
 from integration.arrays import Floats
 from nmm.assembly.model import Model
+from nmm.effects.base import defines
 from nmm.errors import Fault, FormulationError, SceneError
 from nmm.formulation import Formulation
 from nmm.geometry.checks.amounts import refuse_many_cells
@@ -98,9 +99,11 @@ def _posed(scene: "Scene", formulation: Formulation) -> PosedScene:
     check_kinematics(formulation, setup.kinematics)
     discretisation = Discretisation.of(setup)
     plan = discretisation.plan
+    rule = make_integrator(formulation.integrator)
+    _refuse_ends(rule, formulation, plan)
     for later in stages[1:]:
         with of_stage(later.stage.name):  # its faults are reported before anything is solved
-            compile_plan(later.setup)
+            _refuse_ends(rule, formulation, compile_plan(later.setup))
     _refuse_events(scene, plan)
     return PosedScene(
         scene=scene,
@@ -110,7 +113,7 @@ def _posed(scene: "Scene", formulation: Formulation) -> PosedScene:
         discretisation=discretisation,
         stages=stages,
         monitors=monitors(setup, all_there=not stages),
-        integrator=make_integrator(formulation.integrator),
+        integrator=rule,
         solver=solver_of_run(setup, model.manifold, plan.contact is not None),
         lay=_lay(formulation, model, plan),
         covers=built - begun,
@@ -157,6 +160,23 @@ def _lay(formulation: Formulation, model: Model, plan: Plan) -> Lay | None:
             'cover type "block" of degree 1: use update = "exact"'
         )
     return lambda polygons: block_manifold(polygons, model.manifold.element_region, functions)
+
+
+def _refuse_ends(rule: Integrator, formulation: Formulation, plan: Plan) -> None:
+    """Refuse forces that only a whole step has, of rates, under a rule that knows its start alone.
+
+    Raises
+    ------
+    FormulationError
+        Naming the effects.
+    """
+    lost = [name for name, effect in plan.bent.items() if not defines(effect, "force")]
+    if lost and plan.inertia is not None and not rule.end_weight:
+        raise FormulationError(
+            f'[integrator] type: "{formulation.integrator.type}" with {", ".join(lost)}: expected '
+            "forces that are known where a step starts, not those of its rates: use "
+            'type = "newmark"'
+        )
 
 
 def _refuse_events(scene: "Scene", plan: "Plan") -> None:

@@ -129,3 +129,86 @@ def test_contact_is_refused_with_what_to_use():
     more = "[contact]\n[interfaces.dry]\nfriction_angle = 0.5"
     with pytest.raises(FormulationError, match=r'"central_differences" with \[contact\]'):
         nmm.run(nmm.parse_scene(bar(0.01, more=more)))
+
+
+FREE = """
+plane = "stress"
+duration = {duration}
+[materials.stiff]
+young_modulus = 1e8
+poisson_ratio = 0.0
+density = 2000.0
+[[blocks]]
+name = "block"
+material = "stiff"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[monitors]]
+name = "middle"
+point = [0.5, 0.5]
+[inertia]
+{more}
+[formulation.integrator]
+type = "central_differences"
+step = 1e-4
+mass = "lumped"
+[formulation.rotation]
+update = "{update}"
+[formulation.cover]
+type = "quads"
+size = 0.5
+degree = 0
+"""
+
+
+def middle(more, duration, update, way):
+    run = nmm.run(nmm.parse_scene(FREE.format(more=more, duration=duration, update=update)))
+    assert run.summary.status == "converged", run.summary.sentence
+    return run.history[f"monitor:middle:{way}"][-1]
+
+
+@pytest.mark.parametrize("update", ["exact", "small", "finite"])
+def test_a_block_swings_on_a_spring_whose_force_is_no_line(update):
+    spring = """
+    [[springs]]
+    name = "pulled"
+    points = [[0.5, 0.5], [3.5, 0.5]]
+    blocks = ["block", "ground"]
+    stiffness = 2e6
+    force = 1e3
+    """
+    # F / k (1 - cos w t), with w = (k / m)^0.5 = 31.6 /s and the block rigid to k / E = 0.02.
+    expected = 5e-4 * (1 - math.cos(math.sqrt(1000.0) * 0.06))
+    assert middle(spring, 0.06, update, "ux") == pytest.approx(expected, rel=0.02)
+
+
+@pytest.mark.parametrize("update", ["exact", "small", "finite"])
+def test_a_block_thrown_off_a_bed_that_only_pushes_falls_free_and_is_caught(update):
+    bed = """
+    [[foundations]]
+    name = "bed"
+    segment = [[0, 0], [1, 0]]
+    normal_stiffness = 8e5
+    carries = "compression"
+    [gravity]
+    acceleration = [0, -10]
+    [[initial_velocities]]
+    block = "block"
+    velocity = [0, 0.1]
+    """
+    # Free for 2 v / g = 20 ms; then -v / w sin(w t) - g / w^2 (1 - cos w t) with w = 20 /s.
+    assert middle(bed, 0.015, update, "uy") == pytest.approx(0.1 * 0.015 - 5 * 0.015**2, rel=0.01)
+    caught = -0.1 / 20 * math.sin(1.0) - 10 / 400 * (1 - math.cos(1.0))
+    assert middle(bed, 0.07, update, "uy") == pytest.approx(caught, rel=0.02)
+
+
+def test_dashpots_whose_force_is_not_known_at_the_start_are_refused_with_what_to_use():
+    more = """
+    [[dashpots]]
+    name = "damper"
+    points = [[0.5, 0.5], [3.5, 0.5]]
+    blocks = ["block", "ground"]
+    viscosity = 1e3
+    """
+    text = FREE.format(more=more, duration=0.01, update="exact")
+    with pytest.raises(FormulationError, match=r'"central_differences" with dashpots.*newmark'):
+        nmm.run(nmm.parse_scene(text))

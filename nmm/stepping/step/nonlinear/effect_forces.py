@@ -2,7 +2,8 @@
 
 Effects stand in the equations of a step with their line at its start (`Effect.force`, `matrix`).
 What their force through the step has beyond it joins the internal forces, over the weight that the
-integrator gives to the end of the step, so that it enters the step as it is.
+integrator gives to the end of the step, so that it enters the step as it is. Under a rule without
+such a weight, an explicit one, forces are those of the start.
 """
 
 from collections.abc import Mapping
@@ -80,6 +81,10 @@ class EffectForces:
             return self._first(), self._state.memory
         pulls = self._pulls(increment, after)
         memory = dict(self._state.memory)
+        if not self._span.weight:
+            for one in pulls.values():
+                memory |= one.memory
+            return self._first(), memory
         total, beyond, rounding = (np.zeros_like(increment) for _ in range(3))
         for name, one in pulls.items():
             start, matrix = self._lines[name]
