@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 
 
@@ -28,6 +29,16 @@ class Fault:
 
     def __str__(self) -> str:
         return printable(f"{self.place}: {self.value}: expected {self.expected}: {self.remedy}")
+
+
+def shown(value: object, width: int = 60) -> str:
+    """Return a value as a file writes it, texts quoted, shortened to a width."""
+    try:
+        number = isinstance(value, float)  # which may be no JSON
+        text = repr(value) if number else json.dumps(value, default=str, ensure_ascii=False)
+    except (TypeError, ValueError, RecursionError):  # a program may hand over anything
+        text = repr(value)
+    return text if len(text) <= width else text[: width - 3] + "..."
 
 
 def printable(text: str) -> str:

@@ -14,7 +14,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, Generic, TypeVar, cast
 
-from nmm.errors import Fault, FormulationError, NmmError
+from nmm.errors import Fault, FormulationError, NmmError, shown
 from nmm.trust import allowing, import_allowed
 from nmm.trust import given as trust
 
@@ -69,8 +69,11 @@ class Registry(Generic[Part]):
         target = self.table.get(name) or self.installed().get(name) or name
         module, separator, attribute = target.partition(":")
         if not separator:
-            near = get_close_matches(name, self.table, n=1)
-            expected = f'one of {", ".join(self.names())} or "module:Name" of your own'
+            known = sorted({*self.table, *self.installed()})
+            near = get_close_matches(name, known, n=1)
+            expected = " or ".join(
+                [*([f"one of {', '.join(known)}"] if known else []), '"module:Name" of your own']
+            )
             remedy = f'did you mean "{near[0]}"?' if near else "correct the name"
             raise FormulationError(Fault(self.kind, f'"{name}"', expected, remedy))
         found = getattr(self._module(name, module, own=target == name), attribute, None)
@@ -168,7 +171,7 @@ def _nested(place: str, kind: Any, options: Mapping[str, Any]) -> dict[str, Any]
             continue
         within = f"{place}: {item.name}"
         if not isinstance(given, Mapping):
-            raise FormulationError(Fault(within, repr(given), "a table of options", "write one"))
+            raise FormulationError(Fault(within, shown(given), "a table of options", "write one"))
         _check_options(within, type(default), given, {})
         made[item.name] = replace(cast(Any, default), **_nested(within, type(default), given))
     return made
@@ -183,7 +186,7 @@ def _check_options(
     for key, value in options.items():
         if known[key].metadata.get(ABOVE_ZERO) and not value > 0:
             raise FormulationError(
-                Fault(f"{place}: {key}", repr(value), "a number > 0", "raise it")
+                Fault(f"{place}: {key}", shown(value), "a number > 0", "raise it")
             )
 
 
@@ -218,4 +221,4 @@ def check_values(place: str, known: Mapping[str, Any], options: Mapping[str, Any
         is_number = isinstance(value, int | float) and not isinstance(value, bool)
         fits = isinstance(value, types) and (int not in types or is_number)
         if not fits or (is_number and not abs(value) <= LARGEST):
-            raise FormulationError(Fault(f"{place}: {key}", repr(value), words, "correct it"))
+            raise FormulationError(Fault(f"{place}: {key}", shown(value), words, "correct it"))

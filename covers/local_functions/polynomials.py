@@ -35,9 +35,7 @@ class LocalFunctions:
 
     def __post_init__(self) -> None:
         if self.degree not in (0, 1, 2, 3):
-            raise ValueError(
-                f"local functions: degree = {self.degree}: 0, 1, 2 or 3 expected: choose one"
-            )
+            raise ValueError(f"degree: {self.degree}: expected 0, 1, 2 or 3: choose one")
 
     @property
     def n_functions(self) -> int:

@@ -61,6 +61,9 @@ EFFECTS: Registry[type[Effect]] = Registry(
 )
 """Built-in effects by name, or a user's own."""
 
+OWN_EFFECTS: Registry[type[Effect]] = Registry("effect", Effect)
+"""Those of installed packages, or a user's own."""
+
 GLUE = "artificial joints"
 """Not the scene's but the formulation's: what holds sub-blocks together."""
 
@@ -82,10 +85,10 @@ def own_effect(scene: "Scene", name: str) -> tuple[type[Effect], Frozen]:
 
     table = scene.effects[name]
     if table.type in EFFECTS.table:
-        remedy = "built-in effects have keys of their own; see nmm explain"
+        remedy = "built-in effects have tables of their own, as [gravity]: name that"
         fault = Fault("type", f'"{table.type}"', 'an effect of your own, "module:Class"', remedy)
         raise FormulationError(fault)
-    kind = EFFECTS.load(table.type)
+    kind = OWN_EFFECTS.load(table.type)
     source = replace(scene.source, root=(*scene.source.root, "effects", name))
     try:
         return kind, kind.Table.model_validate(table.given)

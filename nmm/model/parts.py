@@ -4,6 +4,7 @@ So a wrong name or option is reported with its line in the file, together with a
 that is not named is a built-in one and is not imported for this.
 """
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -92,7 +93,11 @@ def _key_of(fault: Fault | str, part: "BaseModel", keys: list[str]) -> list[str]
         for key in keys:
             if fault.value == f'"{getattr(part, key)}"':
                 return [key]
-    elif (key := fault.partition(": ")[0]) in part.model_fields_set:
+        options = getattr(part, "options", {})
+        for key in (fault.value, fault.place.rpartition(": ")[2]):
+            if key in options:
+                return ["options", key]
+    elif (key := _before_colon(fault)) in part.model_fields_set:
         return [key]
     return keys if len(keys) == 1 else []
 
@@ -101,8 +106,14 @@ def _placed(fault: Fault | str, place: str) -> Fault | str:
     """Put the place in the file before a fault; what is said there already is not said twice."""
     if isinstance(fault, Fault) and place.endswith(fault.place):
         return replace(fault, place=place)
-    key, said, rest = str(fault).partition(": ")
-    return f"{place}{said}{rest}" if said and place.endswith(f".{key}") else f"{place}: {fault}"
+    rest = str(fault).partition(": ")[2]
+    told = rest and place.endswith(f".{_before_colon(str(fault))}")
+    return f"{place}: {rest if told else fault}"
+
+
+def _before_colon(text: str) -> str:
+    """Return the key that a text begins with, after its table: ``[cover] degree: ...``."""
+    return re.sub(r"^\[[\w.]+\] ", "", text.partition(": ")[0])
 
 
 def _named(

@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field, field_validator, model_validator
 
+from nmm.errors import shown
 from nmm.scene.fields import (
     NAME,
     Acceleration,
@@ -121,7 +122,7 @@ class ContactTable(Frozen):
 def _scaled(value: object) -> object:
     if value == "all" or isinstance(value, list | tuple):
         return value
-    raise fault(repr(value), '"all" or a list of loads', 'write for example scaled = ["jack"]')
+    raise fault(shown(value), '"all" or a list of loads', 'write for example scaled = ["jack"]')
 
 
 def _until(value: object) -> object:
@@ -129,7 +130,7 @@ def _until(value: object) -> object:
         return value
     if isinstance(value, int | float) and not isinstance(value, bool) and 0 < value < math.inf:
         return value
-    raise fault(repr(value), '"failure" or a load factor > 0', 'write until = "failure"')
+    raise fault(shown(value), '"failure" or a load factor > 0', 'write until = "failure"')
 
 
 class Loading(Frozen):

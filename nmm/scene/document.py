@@ -23,6 +23,8 @@ OWN_KEYS = {
 # Largest size of a file in bytes.
 LARGEST_FILE = 256_000_000
 
+QUOTED = "'([^']*)'"
+
 Model = TypeVar("Model", bound=BaseModel)
 
 
@@ -92,6 +94,10 @@ def _refuse_other_kind(
             raise error(Fault(place, kind, wanted, f"give the file of {wanted} here"))
 
 
+def _table_of(keys: str) -> str:
+    return f"[{'.'.join(re.findall(QUOTED, keys))}]"
+
+
 def _deep(place: str) -> Fault:
     return Fault(place, "brackets within brackets", f"at most {DEEPEST} levels", "write it flatter")
 
@@ -112,6 +118,8 @@ def _syntax(message: str, place: str) -> Fault:
     if match is None:
         return Fault(place, message, "TOML", "correct the text")
     reason, line, column, end = match.groups()
+    # Tables that are given twice are named as tuples: ('cover', 'enrichment').
+    reason = re.sub(rf"\(({QUOTED},? ?)+\)", lambda one: _table_of(one[0]), reason)
     where = f"{place}:{line}" if line else place
     position = f"at column {column}" if column else f"at {end}"
     return Fault(where, f"{reason} {position}", "TOML", "correct the text there or just before")

@@ -15,7 +15,7 @@ from typing import Any, get_args, get_origin
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
-from nmm.errors import Fault
+from nmm.errors import Fault, shown
 from nmm.scene.lines import Path, line_numbers
 
 
@@ -104,7 +104,7 @@ def _fault(detail: Any, model: type[BaseModel], source: Source) -> Fault:
     sample = table[0] if table else f"{key} = {_sample(info)}"
     if kind == "missing":
         return Fault(place, "missing", expected, f"add {sample}")
-    return Fault(place, _short(detail["input"]), expected, f"write for example {sample}")
+    return Fault(place, shown(detail["input"]), expected, f"write for example {sample}")
 
 
 def _walk(model: type[BaseModel], path: Path) -> Iterator[tuple[type[BaseModel], FieldInfo | None]]:
@@ -135,8 +135,3 @@ def _sample(info: FieldInfo | None) -> str:
     if info is None or not info.examples:
         return "..."
     return json.dumps(info.examples[0])  # which is TOML for text, numbers and lists
-
-
-def _short(value: object, width: int = 60) -> str:
-    text = repr(value)
-    return text if len(text) <= width else text[: width - 3] + "..."

@@ -14,6 +14,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field
 from pydantic_core import PydanticCustomError
 
+from nmm.errors import shown
 from nmm.scene.units import EXAMPLES, UnitError, convert
 
 # Magnitudes beyond these are mistakes, whose products overflow or vanish.
@@ -60,15 +61,15 @@ def quantity(unit: str, smallest: float = 0.0) -> InUnit:
 
     def read(value: object) -> object:
         if isinstance(value, bool):
-            raise fault(value, f"a number in {unit}", "write a number, not true or false")
+            raise fault(shown(value), f"a number in {unit}", "write a number, not true or false")
         if isinstance(value, str):
             try:
                 value = convert(value, unit)
             except UnitError as error:
-                raise fault(repr(value), error.expected, error.remedy) from None
+                raise fault(shown(value), error.expected, error.remedy) from None
         if isinstance(value, int | float) and abs(value) > LARGEST:
-            shown = value if isinstance(value, float) else "too many digits"
-            raise fault(shown, f"a number up to 1e30 in {unit}", "check the number and its unit")
+            said = value if isinstance(value, float) else "too many digits"
+            raise fault(said, f"a number up to 1e30 in {unit}", "check the number and its unit")
         if isinstance(value, int | float) and 0 < abs(value) < smallest:
             raise fault(value, f"0, or at least {smallest:g} in {unit}", "check the number")
         # Adding 0.0 turns -0.0 into 0.0, so that both give the same scene hash.
@@ -84,7 +85,7 @@ def _time_or_auto(value: object) -> object:
     time = quantity("s", SMALLEST).func(value)  # type: ignore[call-arg]
     if not (isinstance(time, float) and time > 0):
         remedy = 'write for example step = "1 ms", or step = "auto"'
-        raise fault(repr(value), 'a step in s, > 0, or "auto"', remedy)
+        raise fault(shown(value), 'a step in s, > 0, or "auto"', remedy)
     return time
 
 

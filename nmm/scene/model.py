@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, Literal, Self
 
 from pydantic import (
@@ -9,6 +10,7 @@ from pydantic import (
     ModelWrapValidatorHandler,
     PrivateAttr,
     ValidationError,
+    field_validator,
     model_validator,
 )
 from pydantic_core import InitErrorDetails, PydanticCustomError
@@ -28,7 +30,7 @@ from nmm.scene.actions import (
     SupportTable,
 )
 from nmm.scene.faults import Source
-from nmm.scene.fields import Count, Frozen, Length, TableName, Text, Time, example
+from nmm.scene.fields import Count, Frozen, Length, TableName, Text, Time, example, fault
 from nmm.scene.matter.interfaces import InterfaceTable
 from nmm.scene.matter.materials import Material
 from nmm.scene.output import OutputTable
@@ -220,6 +222,18 @@ class Scene(Frozen):
         remedy = f'add [interfaces.NAME] with between = ["{first}", "{second}"]'
         place = self.source.place("interfaces")
         raise SceneError(Fault(place, value, "one for every pair that touches", remedy))
+
+    @field_validator("effects", mode="before")
+    @classmethod
+    def _of_ones_own(cls, value: Any) -> Any:
+        """Refuse tables that are named like a built-in effect and name no class."""
+        for name, table in value.items() if isinstance(value, Mapping) else ():
+            known = cls.model_fields.get(name)
+            if known is not None and isinstance(table, Mapping) and "type" not in table:
+                remedy = f"write {known.description} for the built-in one, or add type"
+                expected = 'type = "module:Class" of an effect of one\'s own'
+                raise fault(f"[effects.{name}] without type", expected, remedy)
+        return value
 
     @model_validator(mode="wrap")
     @classmethod

@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
-from nmm.scene.fields import Count, Frozen, PartName, Time, fault
+from nmm.scene.fields import Count, Flag, Frozen, PartName, Time, fault
 
 Event = Literal["first_contact", "first_slip", "bond_breaks", "state_changes", "shape_changes"]
 
@@ -68,15 +68,17 @@ class OutputTable(Frozen):
         '"module:Class" of outputs of one\'s own: what frames hold beside displacement and stress',
         examples=[["von_mises", "crack_opening"]],
     )
-    pictures: bool = Field(
+    pictures: Flag = Field(
         default=False,
-        description="whether `nmm run` draws pictures of the run into its folder; `nmm plot` draws "
-        "them of any run",
+        description="true or false: whether `nmm run` draws pictures of the run into its folder; "
+        "`nmm plot` draws them of any run",
+        examples=[True],
     )
-    paraview: bool = Field(
+    paraview: Flag = Field(
         default=False,
-        description="whether `nmm run` writes ParaView files of the run into its folder; "
-        "`nmm export` writes them of any run",
+        description="true or false: whether `nmm run` writes ParaView files of the run into its "
+        "folder; `nmm export` writes them of any run",
+        examples=[True],
     )
     checkpoint: CheckpointTable | None = Field(
         default=None,

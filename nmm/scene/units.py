@@ -98,6 +98,8 @@ def convert(text: str, unit: str) -> float:
     if match is None:
         raise UnitError(f"{wanted}, or a text of number and unit", _advice(unit))
     number, name = match.groups()
+    if re.match(r",\d", name):
+        raise UnitError(wanted, f"decimals follow a point: write {number}.{name[1:]}")
     if not name:
         raise UnitError(f"{wanted}, or a text of number and unit", f"write {number} without quotes")
     factor = COMMON.get(unit, {}).get(name.replace("**", "^"))

@@ -139,7 +139,7 @@ def test_what_a_scene_does_not_name_is_not_imported(monkeypatch):
 
 
 FAULTS = {
-    'stiffness = "10 MPa/m"': ('stiffness = "10 MPa"', "stiffness: '10 MPa': expected"),
+    'stiffness = "10 MPa/m"': ('stiffness = "10 MPa"', 'stiffness: "10 MPa": expected'),
     "segment = [[0, 0], [4, 0]]\nstiffness = \"10": (
         "segmnt = [[0, 0], [4, 0]]\nstiffness = \"10", 'segmnt": expected a known key'
     ),
@@ -174,7 +174,7 @@ def test_an_effect_of_ones_own_needs_the_users_word():
 
 def test_a_builtin_effect_has_no_table_of_ones_own():
     text = RAFT.read_text().replace('"foundation:Winkler"', '"gravity"', 1)
-    with pytest.raises(nmm.NmmError, match="built-in effects have keys of their own"):
+    with pytest.raises(nmm.NmmError, match="built-in effects have tables of their own"):
         nmm.run(nmm.parse_scene(text), allow_code=CODE)
 
 

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
+from nmm.errors import shown
 from nmm.scene.fields import (
     Flag,
     FrictionAngle,
@@ -46,7 +47,7 @@ def _pair(value: object) -> object:
     if value == "any" or (isinstance(value, list | tuple) and len(value) == 2):
         return value
     raise fault(
-        repr(value), 'two materials or "any"', 'write for example between = ["rock", "rock"]'
+        shown(value), 'two materials or "any"', 'write for example between = ["rock", "rock"]'
     )
 
 

@@ -180,7 +180,7 @@ def test_check_names_every_fault_of_both_files(tmp_path):
     formulation.write_text("[integrator]\nstep = -1\n")
     result = call("check", scene, "--formulation", formulation)
     assert result.exit_code == 1
-    assert f"{scene}:6: plane: 'stain'" in result.stderr
+    assert f'{scene}:6: plane: "stain"' in result.stderr
     assert "poisson_ratio" in result.stderr
     assert f"{formulation}:2: integrator.step" in result.stderr
     assert result.stderr.splitlines()[-1].endswith("faults")
@@ -203,7 +203,7 @@ def test_check_finds_faults_of_geometry(tmp_path):
         (
             '"1 ms"',
             '"1 ms"\ntype = "newmark"\n[formulation.integrator.options]\nbeta = "x"',
-            "integrator \"newmark\": beta: 'x': expected a number",
+            'integrator "newmark": beta: "x": expected a number',
         ),
         ("density =", 'law = "plastic"\ndensity =', 'materials.rock.law: material law: "plastic"'),
         ("# cohesion", 'law = "x"\n# cohesion', 'interfaces.joint.law: interface law: "x"'),

@@ -57,8 +57,8 @@ def test_the_hash_ignores_units_and_sees_options(tmp_path: Path) -> None:
     ("option", "said"),
     [
         ({"max_passes": 1.5}, 'enforcement "penalty": max_passes: 1.5: expected a whole number'),
-        ({"max_passes": True}, "max_passes: True: expected a whole number"),
-        ({"tolerance": "1e-9"}, "tolerance: '1e-9': expected a number"),
+        ({"max_passes": True}, "max_passes: true: expected a whole number"),
+        ({"tolerance": "1e-9"}, 'tolerance: "1e-9": expected a number'),
         ({"iteration": 1}, "iteration: 1: expected a text"),
         ({"max_pases": 3}, 'max_pases: expected one of .*: did you mean "max_passes"?'),
     ],

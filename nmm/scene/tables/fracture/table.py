@@ -6,7 +6,17 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from nmm.scene.fields import Angle, Frozen, Length, Number, PartName, SurfaceEnergy, fault, quantity
+from nmm.scene.fields import (
+    Angle,
+    Flag,
+    Frozen,
+    Length,
+    Number,
+    PartName,
+    SurfaceEnergy,
+    fault,
+    quantity,
+)
 from nmm.scene.tables.fracture.nucleation import NucleationTable
 
 Intensity = Annotated[float, quantity("Pa m^0.5", 1e-30)]
@@ -34,7 +44,7 @@ class FractureTable(Frozen):
     increment: Length = Field(
         gt=0, description="the length of a new piece in m, > 0", examples=["10 mm"]
     )
-    parallel_stress: bool = Field(
+    parallel_stress: Flag = Field(
         default=False,
         description="true or false: whether the stress along a crack, where it presses, "
         "counts in the direction of a piece, which then ends without shear",

@@ -15,6 +15,7 @@ from typing import Annotated
 
 from pydantic import BeforeValidator
 
+from nmm.errors import shown
 from nmm.scene.fields import fault
 
 # Largest number of characters and of nodes of an expression, and deepest nesting of brackets.
@@ -128,7 +129,7 @@ def _read(value: object) -> object:
         return value
     if not isinstance(value, list | tuple) or len(value) != 2:
         expected = "two expressions of x, y, t, or the name of one of [fields.NAME]"
-        raise fault(repr(value)[:60], expected, 'write for example ["1e3*x", "0"]')
+        raise fault(shown(value), expected, 'write for example ["1e3*x", "0"]')
     return tuple(_component(one) for one in value)
 
 
@@ -137,13 +138,14 @@ def _component(value: object) -> str:
         value = repr(float(value) + 0.0)
     if not isinstance(value, str):
         expected = "an expression of x, y, t"
-        raise fault(repr(value)[:60], expected, 'write a text such as "1e3*x + 2*t"')
+        raise fault(shown(value), expected, 'write a text such as "1e3*x + 2*t"')
     try:
         Expression.of(value)
     except ExpressionError as error:
         allowed = f"numbers, x, y, t, pi, e, + - * / **, < >, {', '.join(FUNCTIONS)}"
-        shown = f"{value[:60]!r}: {error}"
-        raise fault(shown, "an expression of x, y, t", f"use {allowed}") from None
+        raise fault(
+            f"{shown(value)}: {error}", "an expression of x, y, t", f"use {allowed}"
+        ) from None
     return value
 
 

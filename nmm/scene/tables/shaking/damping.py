@@ -6,13 +6,14 @@ from typing import Annotated
 
 from pydantic import BeforeValidator, Field, model_validator
 
+from nmm.errors import shown
 from nmm.scene.fields import Frozen, Name, Number, Time, fault, quantity
 
 
 def _no_angle(value: object) -> object:
     if isinstance(value, str) and "rad" in value:
         remedy = 'divide it by 2 pi, and write for example "2 Hz"'
-        raise fault(repr(value), "cycles a second in Hz, no angle a second", remedy)
+        raise fault(shown(value), "cycles a second in Hz, no angle a second", remedy)
     return value
 
 

@@ -7,6 +7,7 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
+from nmm.errors import shown
 from nmm.scene.fields import Frozen, History, Number, Text, Time, fault
 from nmm.scene.units import UnitError, convert
 
@@ -96,7 +97,7 @@ class RecordTable(Frozen):
         try:
             return self.scale * convert(f"1 {self.unit}", si)
         except UnitError as error:
-            raise fault(repr(self.unit), f"a unit of {si}", error.remedy) from None
+            raise fault(shown(self.unit), f"a unit of {si}", error.remedy) from None
 
     @property
     def times_and_values(self) -> tuple[list[float], list[float]]:

@@ -101,7 +101,7 @@ def test_a_scene_that_has_read_its_file_depends_on_it_no_more(tmp_path):
         ('file = "c.at2"\nunit = "g"\nstep = 0.02', {"c__at2": PEER}, "step = 0.02: expected none"),
         ("values = [1, 2]", {}, "values without step"),
         ("samples = [[0, 1], [0, 2]]", {}, "t = 0 after 0 (sample 2): expected times that"),
-        ('values = [1, 2]\nstep = 1\nunit = "kg"', {}, "'kg': expected a unit of m/s^2"),
+        ('values = [1, 2]\nstep = 1\nunit = "kg"', {}, '"kg": expected a unit of m/s^2'),
         ('values = [1, 2]\nstep = 1\nfile = "a"', {}, "file, values: expected file, samples or"),
         (
             'values = [1, 2]\nstep = 1\nquantity = "velocity"\nbaseline = "velocity"',
