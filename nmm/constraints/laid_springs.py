@@ -6,6 +6,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats
 from integration.contraction import contract
+from integration.plane_vectors import clockwise
 from nmm.assembly.places import Place
 from nmm.assembly.tractions.donors import across
 from nmm.assembly.tractions.moments import with_moment
@@ -48,7 +49,7 @@ def _stretches(setup: Setup, tie: Imposition) -> Floats:
     stress = np.mean([ground(side.elements, side.position) for side in sides], axis=0)
     place, own = interface.first, across(stress, normal).T
     assert place.piece is not None
-    line = contract("ij,ij->i", place.position, np.stack([normal[:, 1], -normal[:, 0]], axis=1))
+    line = contract("ij,ij->i", place.position, clockwise(normal))
     even = [with_moment(place.piece, place.weight, line, part) for part in own]
     traction = interface.held * np.stack(even, axis=1)
     if interface.second is None:

@@ -3,7 +3,8 @@
 Forces are finite, one for each unknown, and the same when asked again. What an effect gives in a
 small motion, its work less what it stores more and takes, is its force times the way. The
 matrix is symmetric, and less the change of the force with the motion (by central differences,
-extrapolated); of a force that depends on the length of the step, in one of `STEP`.
+extrapolated); of a force that depends on the length of the step, in one of `STEP`. So is the
+tangent of `Effect.step_force` at trial ends of a step, under the rules of `SPANS`.
 
 Forces with limits have kinks: members that go slack, yield or slide. Motions of these, and of
 members that turn, are made of `PIECES`, and a matrix is compared in motions in which its force
@@ -17,10 +18,11 @@ from scipy.integrate import simpson, trapezoid
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
+from nmm.assembly.kinematics import SMALL, Kinematics
 from nmm.assembly.model import Model
 from nmm.assembly.motion import strain_only
 from nmm.assembly.state import State
-from nmm.effects.base import Effect, Instant, defines
+from nmm.effects.base import Effect, Instant, Span, StepForce, defines
 from nmm.frozen import with_parts
 from nmm.testing.claims import claim, close, finite
 
@@ -32,10 +34,27 @@ LINEAR, ENERGY = 1e-6, 1e-6
 PIECES, KINKED = 64, 1e-3
 # Length of the step (in units of the run's time) in which a force is asked for that needs one.
 STEP = 0.1
+# A step of statics, and steps in time of rules that take forces at its end, at both, and half way.
+SPANS = (Span(None, 1.0, False), Span(STEP, 1.0, False), Span(STEP, 0.5, False))
+HALF_WAY = (Span(STEP, 1.0, True), Span(STEP, 0.5, True))
+# Share of a motion over which forces through a step are differenced, and what a tangent may lack of
+# those half way, whose corrections of moments iterations follow.
+NEAR, LAGS = 1e-3, 2e-3
+# Turn (rad) of bodies in a motion of the size of the model, at most.
+TURNS = 5.0
 
 
-def check_forces(effect: Effect, name: str, model: Model, state: State, seed: int) -> None:
+def check_forces(
+    effect: Effect,
+    name: str,
+    model: Model,
+    state: State,
+    seed: int,
+    kinematics: Kinematics = SMALL,
+) -> None:
     """Hold an effect to what its force, matrix, work, energy and loss owe each other.
+
+    ``kinematics`` say how bodies move through a step.
 
     Raises
     ------
@@ -52,6 +71,9 @@ def check_forces(effect: Effect, name: str, model: Model, state: State, seed: in
             _work(effect, name, model, _at_rest(state), way)
     if defines(effect, "matrix"):
         _matrix(effect, name, model, state, ways)
+    if defines(effect, "step_force") and effect.nonlinear:
+        for span in SPANS + HALF_WAY:
+            _tangent(effect, name, model, state, span, kinematics, seed)
     for hook in ("damping", "added_mass"):
         if defines(effect, hook):
             _resistance(name, hook, getattr(effect, hook)(state), ways)
@@ -148,6 +170,36 @@ def _matrix(effect: Effect, name: str, model: Model, state: State, ways: list[Fl
         whole, half = (change[share] - change[-share] for share in (0.5, 0.25))
         what = f"{name}: change of the force with the motion against the matrix"
         close(what, (8 * half - whole) / 3 / unit, expected / unit, LINEAR)
+
+
+def _tangent(
+    effect: Effect,
+    name: str,
+    model: Model,
+    state: State,
+    span: Span,
+    kinematics: Kinematics,
+    seed: int,
+) -> None:
+    """Compare the tangent at trial ends of a step with differences of the force around them."""
+
+    def at(increment: Floats) -> StepForce:
+        end = kinematics.move(model, state, increment)
+        return effect.step_force(state, with_parts(end, time=state.time + (span.step or 0.0)), span)
+
+    for share, trial, way in zip(WAYS, _ways(model, seed), _ways(model, seed + 1), strict=True):
+        if defines(effect, "forget"):
+            effect.forget()  # a tangent that is kept may be that of another place
+        here, ends = at(trial), [at(trial + side * NEAR * way) for side in (-1, 1)]
+        expected, found = here.stiffness() @ way, (ends[0].force - ends[1].force) / (2 * NEAR)
+        unit = float(np.abs(expected).max()) or 1.0
+        bent = np.abs(ends[0].force + ends[1].force - 2 * here.force).max() / NEAR
+        if effect.limited and bent > KINKED * unit:
+            continue
+        # Axes that turn with bodies leave a tangent behind by as much as these turn.
+        tolerance = LAGS if span in HALF_WAY else LINEAR + TURNS * share
+        what = f"{name}: change of the force through a step of {span} against its tangent"
+        close(what, found / unit, expected / unit, tolerance)
 
 
 def _resistance(name: str, hook: str, matrix: csc_array, ways: list[Floats]) -> None:

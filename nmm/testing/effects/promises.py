@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.assembly.kinematics import SMALL, Kinematics
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, defines
@@ -51,13 +52,16 @@ def check_effect_of(
     for made in prepared:
         effects = made.stepper.plan.effects
         found = effects[OWN + name if OWN + name in effects else name]
-        check_effect(found, made.stepper.model, made.start)
+        check_effect(found, made.stepper.model, made.start, kinematics=made.stepper.kinematics)
 
 
-def check_effect(effect: Effect, model: Model, state: State, seed: int = 0) -> None:
+def check_effect(
+    effect: Effect, model: Model, state: State, seed: int = 0, kinematics: Kinematics = SMALL
+) -> None:
     """Hold an effect to what every one promises, at a state and at ones near it.
 
-    Forces, matrices, work and energy fit each other (`nmm.testing.effects.forces`); quantities and
+    Forces, matrices, tangents, work and energy fit each other (`nmm.testing.effects.forces`),
+    where bodies move through a step as ``kinematics`` say; quantities and
     numbers that it declares are finite or nan, and fit what they belong to. What it carries for
     checkpoints gives it back as it was. Hooks change nothing of what they are given.
 
@@ -79,7 +83,7 @@ def check_effect(effect: Effect, model: Model, state: State, seed: int = 0) -> N
         check_force(effect, name, state, model.manifold.n_unknowns)
     _declared(effect, name, model, state)
     _unchanged(name, state, kept)
-    check_forces(effect, name, model, state, seed)
+    check_forces(effect, name, model, state, seed, kinematics)
     if defines(effect, "carried"):
         _carried(effect, name, state)
     _unchanged(name, state, kept)

@@ -16,6 +16,7 @@ from nmm.constraints.springs import Springs
 from nmm.contact.enforcement.barrier import Barrier
 from nmm.contact.enforcement.cone import Cone
 from nmm.contact.enforcement.penalty import Penalty
+from nmm.effects.base import Instant, StepForce
 from nmm.effects.gravity import Gravity
 from nmm.errors import SolveError
 from nmm.geometry.tessellation.block_cover import BlockCover
@@ -361,7 +362,17 @@ class Stiffening(Lever):
         return csc_array(np.diag(1e3 * bent))
 
     def step_force(self, before, after, span):
-        raise NotImplementedError  # named, so that it counts as nonlinear
+        ends = (1 - span.weight, before), (span.weight, after)
+        force = sum(share * self.force(one, Instant.of(one)) for share, one in ends)
+        return StepForce(force, lambda: self.tangent * span.weight * self.matrix(after))
+
+    tangent = 1.0
+
+
+class Hasty(Stiffening):
+    """One whose tangent through a step is a hundredth too stiff."""
+
+    tangent = 1.01
 
 
 class Misjudged(Stiffening):
@@ -386,6 +397,7 @@ EFFECTS = {
     "over the force times the way: off": Misjudged,
     "change of the force with the motion": Softer,
     "motion against the matrix": Sponge,
+    "through a step of": Hasty,
     "off from symmetric": Asymmetric,
     "7 rows, expected 2 on elements": Misplaced,
 }
