@@ -1,15 +1,17 @@
 """The effect: inertia, with the centrifugal force in the rotating axes of bodies."""
 
+from functools import cached_property
 from typing import Self
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Floats
 from integration.contraction import some
 from nmm.assembly.applied_forces import AppliedForces
 from nmm.assembly.kept import KeptOfStates
 from nmm.assembly.model import Model
+from nmm.assembly.momenta import rigid_masses
 from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.solvers.unchecked import product
@@ -25,6 +27,8 @@ class Inertia(Effect):
     as it was laid. A deformation makes it ``J = J0 + 2 s``, with ``s = int rho (X - Xc) . u``, and
     the energy of the rotation ``L^2 / (2 J)``, to first order ``J0 omega^2 / 2 - omega^2 s``: the
     work of the centrifugal force is taken from it, so that a body in free flight keeps its energy.
+    Its axes turn by the derivative of that energy to ``L``, ``omega (1 - 2 s / J0)``, so that
+    moments do the work that it gains.
     """
 
     name = "inertia"
@@ -53,6 +57,31 @@ class Inertia(Effect):
         if not some(acceleration):
             return AppliedForces.of_densities()
         return AppliedForces.of_acceleration(acceleration)
+
+    def turned_less(self, state: State, step: float) -> Floats | None:
+        """Return by how much less than ``omega step`` strained bodies turn in a step, in unknowns.
+
+        ``2 s / J0`` of that (n,), with ``s`` half way through the step at the velocity of its
+        start; None where no axes turn.
+        """
+        spin = self.spin(state)
+        if not (self._axes_turn and some(spin)):
+            return None
+        half_way = state.deformation + step / 2 * state.velocity
+        return product(self._turns, 2 * step * spin * product(self._stretched, half_way))
+
+    @cached_property
+    def _turns(self) -> csc_array:
+        """Unknowns (n, B) of a turn of each body."""
+        return csc_array(self._model.manifold.rigid_modes[:, 2::3])
+
+    @cached_property
+    def _stretched(self) -> csr_array:
+        """Rows (B, n): ``s / J0``; zero of a body without mass."""
+        inertia = rigid_masses(self._model)[:, 2]
+        share = np.divide(1.0, inertia, out=np.zeros_like(inertia), where=inertia > 0)
+        stretch = self._model.manifold.stretch_modes
+        return csr_array(diags_array(share) @ (stretch.T @ self.mass))
 
     def _centrifugal(self, state: State) -> Floats:
         """Return ``omega^2 (X - Xc)`` in unknowns (n,); zero in axes that do not turn."""

@@ -91,8 +91,12 @@ class Assembly:
         assert plan.inertia is not None
         force, gain, applied = self._weighed(static, line, plan.steady and linear)
         velocity, mass = rule.kinetic_factor * state.velocity, plan.inertia.mass
-        rates = rule.momentum(velocity, state.acceleration, step)
-        momentum, factor = product(mass, rates), rule.mass_factor(step)
+        rates, factor = rule.momentum(velocity, state.acceleration, step), rule.mass_factor(step)
+        less = plan.inertia.turned_less(state, step)
+        if less is not None:
+            less *= rule.kinetic_factor
+            rates = rates - factor * less
+        momentum = product(mass, rates)
         resisting = plan.damping(state), plan.added_mass(state)
         damping = Damping.of(*resisting, rule, velocity, state.acceleration, step)
         pushed = force + momentum
@@ -101,7 +105,7 @@ class Assembly:
             pushed += sum(one @ rates for one in damping.masses.values())
         share = 1.0 if plan.contact is None else rule.contact_factor
         outwards = plan.inertia.force(state, static.end)
-        given = mass, factor, momentum, rates, outwards, rule.end_weight, share
+        given = mass, factor, momentum, rates, outwards, less, rule.end_weight, share
         terms = InertiaTerms(*given, gain, applied, damping)
         if not terms.weight:  # explicit: what is elastic joins no matrix
             terms = replace(terms, elastic=plan.matrix(state, line.stiffness))

