@@ -25,7 +25,7 @@ def spectrum(
 
         import nmm
         from nmm.plots.results.spectrum import spectrum as draw
-        from nmm.results.response_spectrum import monitor_spectrum
+        from nmm.results.monitor_spectrum import monitor_spectrum
 
         found = monitor_spectrum(nmm.read_run(run), monitor, axis, ratio=damping)
         folder = out or run

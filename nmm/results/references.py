@@ -12,7 +12,7 @@ from nmm.results.summary import Summary
 
 
 class Answer(Protocol):
-    """What is known from elsewhere; `nmm.scene.actions.ReferenceTable` is one."""
+    """What is known from elsewhere; `nmm.scene.monitors.ReferenceTable` is one."""
 
     @property
     def quantity(self) -> str:

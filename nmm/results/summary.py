@@ -7,13 +7,10 @@ from collections import abc
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from types import NoneType
-from typing import TYPE_CHECKING, Any, get_args, get_origin
+from typing import Any, get_args, get_origin
 
 from nmm.errors import NmmError
 from nmm.results.versions import installed_versions
-
-if TYPE_CHECKING:
-    pass
 
 RUNNING = "running"
 STOPPED = "stopped"
@@ -135,10 +132,7 @@ class Summary:
             values = json.loads(text)
         except json.JSONDecodeError as fault:
             raise NmmError(f"summary.json, line {fault.lineno}: not JSON ({fault.msg})") from fault
-        except (
-            ValueError,
-            RecursionError,
-        ) as fault:  # more than Python reads
+        except (ValueError, RecursionError) as fault:  # more than Python reads
             raise NmmError(f"summary.json: not JSON ({fault})") from fault
         if not isinstance(values, dict):
             raise NmmError("summary.json: expected a table of fields")

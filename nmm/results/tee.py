@@ -1,4 +1,4 @@
-"""Receivers that stand before others: one run to several, its frames alone, or held back."""
+"""Receivers that stand before others: one run to several, its frames alone, or later."""
 
 from collections.abc import Callable, Mapping, Sequence
 
@@ -34,7 +34,7 @@ class Tee:
             sink.finish(summary)
 
 
-class Held:
+class Deferred:
     """Sink that keeps frames and rows until they are to be handed on.
 
     Attributes

@@ -6,7 +6,7 @@ import difflib
 import json
 import re
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
@@ -93,7 +93,7 @@ def _fault(detail: Any, model: type[BaseModel], source: Source) -> Fault:
     kind, context = detail["type"], detail.get("ctx", {})
     if kind == "fault":
         return Fault(place, context["value"], context["expected"], context["remedy"])
-    *_, (parent, info) = _walk(model, path)
+    parent, info = _at(model, path)
     if kind == "extra_forbidden":
         known = [name for name, _ in _keys(parent)]
         remedy = suggestion(str(path[-1]), known)
@@ -107,18 +107,19 @@ def _fault(detail: Any, model: type[BaseModel], source: Source) -> Fault:
     return Fault(place, shown(detail["input"]), expected, f"write for example {sample}")
 
 
-def _walk(model: type[BaseModel], path: Path) -> Iterator[tuple[type[BaseModel], FieldInfo | None]]:
-    """Yield the model of each part of a path, and the nearest field."""
+def _at(model: type[BaseModel], path: Path) -> tuple[type[BaseModel], FieldInfo | None]:
+    """Return the model that the last part of a path is in, and the nearest field."""
     info: FieldInfo | None = None
+    parent = model
     is_name = False  # the part after a field of named entries is an entry's name, not a key
-    yield model, info
     for part in path:
+        parent = model
         found = None if is_name else dict(_keys(model)).get(str(part))
         is_name = found is not None and get_origin(found.annotation) in (dict, Mapping)
         info = found or info
-        yield model, info
         if found is not None:
             model = _inner(found.annotation) or model
+    return parent, info
 
 
 def _keys(model: type[BaseModel]) -> list[tuple[str, FieldInfo]]:

@@ -21,23 +21,20 @@ from nmm.scene.actions import (
     ContactTable,
     GravityTable,
     InertiaTable,
-    InitialStressTable,
-    InitialVelocityTable,
-    Loading,
-    MonitorTable,
     PlacedTable,
-    ReferenceTable,
     SupportTable,
 )
 from nmm.scene.faults import Source
 from nmm.scene.fields import Count, Frozen, Length, TableName, Text, Time, example, fault
 from nmm.scene.matter.interfaces import InterfaceTable
 from nmm.scene.matter.materials import Material
+from nmm.scene.monitors import MonitorTable, ReferenceTable
 from nmm.scene.output import OutputTable
 from nmm.scene.own_tables import EffectTable
 from nmm.scene.rules.contradictions import contradictions
 from nmm.scene.solids import Block, Crack, JointSet, Tessellation
 from nmm.scene.stages import StageTable
+from nmm.scene.tables.bars import BarTable
 from nmm.scene.tables.fracture.cohesive import CohesiveZonesTable
 from nmm.scene.tables.fracture.table import FractureTable
 from nmm.scene.tables.heat import (
@@ -47,11 +44,12 @@ from nmm.scene.tables.heat import (
     HeatTable,
     TemperatureTable,
 )
+from nmm.scene.tables.initial import InitialStressTable, InitialVelocityTable
 from nmm.scene.tables.joint_flow import JointFlowTable, JointHeadTable
 from nmm.scene.tables.loading.fields import FieldTable
+from nmm.scene.tables.loading.growth import Loading
 from nmm.scene.tables.loading.loads import LoadTable
 from nmm.scene.tables.members import (
-    BarTable,
     DashpotTable,
     FoundationTable,
     MassTable,

@@ -45,7 +45,7 @@ class StageTable(Frozen):
         default=None, description="names of all loads that act", examples=[["pressure"]]
     )
     supports: tuple[Name, ...] | None = Field(
-        default=None, description="names of all supports that hold", examples=[["left"]]
+        default=None, description="names of all supports that act", examples=[["left"]]
     )
     members: tuple[Name, ...] | None = Field(
         default=None,
@@ -74,7 +74,7 @@ class StageTable(Frozen):
         ge=0,
         le=1,
         description="share of what removed blocks exerted that is gone at the end of the stage, "
-        "of all that is held back; all of it at once when never given",
+        "of all that is not yet gone; all of it at once when never given",
         examples=[0.5],
     )
     reset_displacements: bool = Field(

@@ -6,7 +6,8 @@ import numpy as np
 
 import nmm
 from nmm.effects.motion.record import corrected
-from nmm.results.response_spectrum import monitor_spectrum, response_spectrum
+from nmm.results.monitor_spectrum import monitor_spectrum
+from nmm.results.response_spectrum import response_spectrum
 
 FOLDER = Path(__file__).parents[2] / "examples/shaken_ground"
 PERIODS = np.geomspace(0.1, 3.0, 40)  # s

@@ -15,7 +15,7 @@ from nmm.materials.base import Law
 
 if TYPE_CHECKING:
     from nmm.effects.base import Setup
-    from nmm.scene.actions import InitialStressTable
+    from nmm.scene.tables.initial import InitialStressTable
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from nmm.materials.uniaxial import Uniaxial
 from nmm.scene.tables.members import GROUND
 
 if TYPE_CHECKING:
-    from nmm.scene.tables.members import BarTable
+    from nmm.scene.tables.bars import BarTable
 
 # Plastic strain at which hardening ends, beyond all that occur.
 FAR = 1e3
@@ -114,7 +114,7 @@ def _nodes(setup: Setup, bar: "BarTable") -> _BarNodes:
         elements[1:-1] = elements_along(setup, position[1:-1], last - first)
         inside = elements >= 0
     blocks = bar.blocks or (None, None)
-    for at, end, block in zip((0, -1), bar.held, blocks, strict=True):
+    for at, end, block in zip((0, -1), bar.anchorage, blocks, strict=True):
         if end == "fixed" and block != GROUND:
             elements[at] = elements_at(setup, position[[at]], setup.regions(block))[0]
             if elements[at] < 0:

@@ -27,7 +27,7 @@ from nmm.effects.members.member_set import Members
 from nmm.materials.uniaxial import Uniaxial
 
 if TYPE_CHECKING:
-    from nmm.scene.tables.members import BarTable
+    from nmm.scene.tables.bars import BarTable
 
 # Places of memory of a bar: at most one joint in each of so many parts of it.
 PLACES = 200

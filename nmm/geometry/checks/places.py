@@ -12,8 +12,9 @@ from nmm.errors import Fault
 from nmm.geometry.blocks import Regions
 from nmm.geometry.checks.supports import doubled_supports
 from nmm.geometry.places import edges_on, polygons_at, tolerance
-from nmm.scene.actions import MonitorTable, SupportTable
+from nmm.scene.actions import SupportTable
 from nmm.scene.model import Scene
+from nmm.scene.monitors import MonitorTable
 from nmm.scene.tables.loading.loads import LoadTable
 
 _Finding = tuple[str, str, str]  # value, expected, remedy

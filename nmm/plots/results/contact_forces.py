@@ -9,7 +9,7 @@ from nmm.plots.results.deformed import moment
 from nmm.plots.results.faint_blocks import faint_blocks
 from nmm.plots.units import prefixed
 from nmm.results.sink import RunData
-from nmm.results.viewing.paraview import contact_vectors
+from nmm.results.viewing.grids import contact_vectors
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

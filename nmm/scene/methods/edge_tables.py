@@ -15,7 +15,7 @@ GHOST = 0.5
 
 
 class SupportMethod(Frozen):
-    """How supports along edges are imposed; points are held by springs."""
+    """How supports along edges are imposed; points are supported by springs."""
 
     ALWAYS_READ: ClassVar[frozenset[str]] = frozenset({"stiffness"})
     """Keys that every method uses: the springs of points."""

@@ -67,7 +67,7 @@ def on_segment(item: PlacedTable) -> None:
 
 
 class TemperatureTable(PlacedFlux):
-    """A temperature that is held along a segment of the boundary, or given in whole blocks.
+    """A temperature that is prescribed along a segment of the boundary, or given in whole blocks.
 
     `history` multiplies what it is above the reference.
     """

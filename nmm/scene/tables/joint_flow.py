@@ -53,7 +53,7 @@ class JointFlowTable(Frozen):
 
 
 class JointHeadTable(PlacedTable):
-    """A head that is held at the ends of joints at a point, or along a segment.
+    """A head that is prescribed at the ends of joints at a point, or along a segment.
 
     `history` multiplies it.
     """

@@ -75,7 +75,7 @@ class SeepageTable(Frozen):
 
 
 class HeadTable(PlacedFlux):
-    """A head that is held along a segment of the boundary, or given in whole blocks."""
+    """A head that is prescribed along a segment of the boundary, or given in whole blocks."""
 
     head: Coordinate = Field(description="a head in m: y of the level", examples=["28 m"])
     gradient: tuple[Number, Number] = Field(

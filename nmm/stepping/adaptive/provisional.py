@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Self
 
-from nmm.results.tee import Held
+from nmm.results.tee import Deferred
 
 if TYPE_CHECKING:
     from nmm.stepping.reports.recorder import Recorder
@@ -19,14 +19,14 @@ class ProvisionalStep:
     ----------
     recorder
         Whose stepper takes the step.
-    held
+    deferred
         What was written since; nothing of it has reached the sink.
     totals, carried, taken
         Of the recorder, of the stepper and its effects, and of the budget, before the step.
     """
 
     recorder: "Recorder"
-    held: Held
+    deferred: Deferred
     totals: "Totals"
     carried: "CarriedState"
     taken: int
@@ -35,18 +35,18 @@ class ProvisionalStep:
     def begin(cls, recorder: "Recorder") -> Self:
         """Hold back from now on what the recorder writes."""
         stepper = recorder.stepper
-        held = Held(recorder.sink)
-        found = cls(recorder, held, recorder.totals, stepper.carried, stepper.budget.taken)
-        recorder.sink = held
+        sink = Deferred(recorder.sink)
+        found = cls(recorder, sink, recorder.totals, stepper.carried, stepper.budget.taken)
+        recorder.sink = sink
         return found
 
     def keep(self) -> None:
-        """Hand on what was held back."""
-        self.recorder.sink = self.held.release()
+        """Hand on what was deferred."""
+        self.recorder.sink = self.deferred.release()
 
     def undo(self) -> None:
         """Go back to where the step began."""
         recorder = self.recorder
-        recorder.sink, recorder.totals = self.held.behind, self.totals
+        recorder.sink, recorder.totals = self.deferred.behind, self.totals
         recorder.stepper.budget.taken = self.taken
         recorder.stepper.return_to(self.carried)

@@ -13,7 +13,7 @@ from nmm.study.comparison.runs import Comparison
 def draw(study: Comparison, path: Path) -> None:
     """Draw the page's figure."""
     from nmm.plots.results.comparison import DrawnRun, comparison
-    from nmm.results.viewing.paraview import contact_vectors
+    from nmm.results.viewing.grids import contact_vectors
 
     made, image = study.made, study.raster.image
     x, y = curve_columns(made[0][1])

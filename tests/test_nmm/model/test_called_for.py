@@ -5,7 +5,7 @@ import re
 from nmm.model.called_for import CALLS
 from nmm.model.effects_table import EFFECTS, GLUE
 from nmm.scene.model import Scene
-from nmm.scene.tables.members import BarTable
+from nmm.scene.tables.bars import BarTable
 
 
 def test_every_effect_but_glue_is_called_for_by_a_table_of_scenes():

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from nmm.errors import NmmError
-from nmm.results.response_spectrum import monitor_spectrum, response_spectrum
+from nmm.results.monitor_spectrum import monitor_spectrum
+from nmm.results.response_spectrum import response_spectrum
 
 R1 = [0, 0.6, 1.8, -1.2, -3.0, 0.9, 3.4, 2.1, -0.8, -3.6, -1.5, 2.4, 1.1, -2.2, 0.4, 1.6, -0.9]
 R1 = np.array([*R1, -0.5, 0.3, -0.1, 0])

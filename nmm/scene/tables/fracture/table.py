@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from nmm.scene.fields import (
+    SMALLEST,
     Angle,
     Flag,
     Frozen,
@@ -19,7 +20,7 @@ from nmm.scene.fields import (
 )
 from nmm.scene.tables.fracture.nucleation import NucleationTable
 
-Intensity = Annotated[float, quantity("Pa m^0.5", 1e-30)]
+Intensity = Annotated[float, quantity("Pa m^0.5", SMALLEST)]
 
 
 class FractureTable(Frozen):

@@ -12,6 +12,8 @@ from pathlib import Path
 
 from nmm.errors import Fault, SceneError
 from nmm.plain_file import plain
+from nmm.scene.document import LARGEST_FILE
+from nmm.scene.fields import LARGEST
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
 _PEER = re.compile(r"NPTS\s*=?\s*(\d+)\s*,?.*?DT\s*=?\s*([\d.eE+-]+)", re.IGNORECASE)
@@ -19,8 +21,6 @@ PEER_ENDINGS = {".at2": "acceleration", ".vt2": "velocity", ".dt2": "displacemen
 """Quantity of files of the PEER NGA data base, by their ending."""
 # A step longer than this multiple of the median is a gap.
 GAP = 1.5
-# Bytes of a file.
-LARGEST_FILE = 256_000_000
 
 Row = tuple[int, list[float]]
 
@@ -123,7 +123,8 @@ def _check_times(path: Path, rows: list[Row]) -> None:
 def _lines(path: Path) -> list[str]:
     try:
         if path.stat().st_size > LARGEST_FILE:
-            raise SceneError(Fault(str(path), "too long", "at most 256 MB", "cut the file"))
+            expected = f"at most {LARGEST_FILE / 1e6:.0f} MB"
+            raise SceneError(Fault(str(path), "too long", expected, "cut the file"))
         return plain(path).read_text(encoding="utf-8-sig").splitlines()
     except OSError as cause:
         reason = cause.strerror or str(cause)
@@ -135,7 +136,7 @@ def _lines(path: Path) -> list[str]:
 
 def _number(text: str) -> float:
     value = float(text)
-    if not abs(value) <= 1e30:
+    if not abs(value) <= LARGEST:
         raise ValueError(text)
     return value
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
-
 from pydantic import Field, model_validator
 
 from nmm.scene.fields import Energy, Frozen, Length, Name, Number, PartName, fault
@@ -61,8 +59,6 @@ class ControlTable(Frozen):
         "to it",
         examples=[0.2],
     )
-
-    words: ClassVar[str] = "a table [loading.control]"
 
     @model_validator(mode="after")
     def _check(self) -> ControlTable:

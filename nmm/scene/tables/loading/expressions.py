@@ -16,7 +16,7 @@ from typing import Annotated
 from pydantic import BeforeValidator
 
 from nmm.errors import shown
-from nmm.scene.fields import fault
+from nmm.scene.fields import LARGEST, fault
 
 # Largest number of characters and of nodes of an expression, and deepest nesting of brackets.
 MOST_SIGNS, MOST_NODES, DEEPEST_BRACKETS = 1000, 500, 200
@@ -100,7 +100,7 @@ def _parts(node: ast.AST) -> list[ast.expr]:
     match node:
         case ast.Constant(value=bool() as truth):
             raise ExpressionError(f"{truth}")
-        case ast.Constant(value=int() | float() as number) if abs(number) <= 1e30:
+        case ast.Constant(value=int() | float() as number) if abs(number) <= LARGEST:
             return []
         case ast.Name(id=name) if name in VARIABLES or name in CONSTANTS:
             return []

@@ -10,7 +10,8 @@ import pytest
 from integration.polygons import Polygons
 from nmm.results import MemorySink, Topology
 from nmm.results.viewing.cells import cells, drawable
-from nmm.results.viewing.paraview import blocks_grid, contact_vectors, output_times, write_paraview
+from nmm.results.viewing.grids import blocks_grid, contact_vectors
+from nmm.results.viewing.paraview import output_times, write_paraview
 
 SQUARE = [[0, 0], [4, 0], [4, 4], [0, 4]]
 HOLE = [[1, 1], [1, 3], [3, 3], [3, 1]]

@@ -31,7 +31,7 @@ BAR = '[[bars]]\nname = "b"\npoints = [[0, 0], [1, 1]]\nyoung_modulus = "200 GPa
         (SPRING + 'blocks = ["ground", "ground"]', 9, "one end on a block"),
         (BAR, 9, "diameter or area"),
         (BAR + 'area = "490 mm^2"\nbond = { stiffness = 1e9 }', 9, "a perimeter"),
-        (BAR + 'diameter = "25 mm"\nends = ["free", "fixed"]', 9, "a bar that is held"),
+        (BAR + 'diameter = "25 mm"\nends = ["free", "fixed"]', 9, "a bar that is anchored"),
         (BAR + 'diameter = "25 mm"\nhardening_modulus = 1e9', 9, "a stress that it begins at"),
         (
             BAR + 'area = "2 mm^2"\nyield_stress = "5 MPa"\npretension = 10.1',
