@@ -104,9 +104,10 @@ def mixed_step(
     """``correction`` combined with the remembered steps; as it is where these say nothing."""
     table, load = np.empty((used, used)), np.empty(used)
     for k in range(used):
-        table[k, :] = gram[k, :used]
+        for j in range(used):
+            table[k, j] = gram[k, j]
         load[k] = -dot(corrections[k], force)
-    result, shares = correction.copy(), ridged(table, load, RIDGE, True)
+    result, shares = correction.copy(), ridged(table, load, RIDGE)
     for k in range(used):
         for i in range(len(result)):
             result[i] -= shares[k] * sums[k, i]

@@ -103,7 +103,9 @@ def _mixed(points: Floats, forces: Floats, weight: Floats, island: Ints, islands
         for i in range(count):
             for j in range(i):
                 tables[one, j, i] = tables[one, i, j]
-        loads[one] = ridged(tables[one], loads[one], MIX_RIDGE, False)
+        shares = ridged(tables[one], loads[one], MIX_RIDGE)
+        for i in range(count):
+            loads[one, i] = shares[i]
     found: Floats = points[0].copy()
     for k in range(n):
         for i in range(count):

@@ -7,17 +7,16 @@ from nmm.compiled import compiled
 
 
 @compiled
-def eliminated(triangles: Floats, order: Ints, exchanges: bool) -> bool:
+def eliminated(triangles: Floats, order: Ints) -> bool:
     """Whether a matrix (n, n) has both triangles, which are made in place.
 
-    With ``exchanges`` rows change places for the largest pivots, and ``order`` (n,) with them; a
-    definite matrix needs none.
+    Rows change places for the largest pivots, and ``order`` (n,) with them.
     """
     n = len(order)
     for k in range(n):
         pivot = k
         for i in range(k + 1, n):
-            if exchanges and abs(triangles[i, k]) > abs(triangles[pivot, k]):
+            if abs(triangles[i, k]) > abs(triangles[pivot, k]):
                 pivot = i
         if not abs(triangles[pivot, k]) > 0.0:
             return False
@@ -52,7 +51,7 @@ def substituted(triangles: Floats, order: Ints, load: Floats) -> Floats:
 
 
 @compiled
-def ridged(table: Floats, load: Floats, ridge: float, exchanges: bool) -> Floats:
+def ridged(table: Floats, load: Floats, ridge: float) -> Floats:
     """Solution (n,) of normal equations (n, n), with a share of their trace put on their diagonal.
 
     It is zero where they are not finite or vanish.
@@ -64,6 +63,6 @@ def ridged(table: Floats, load: Floats, ridge: float, exchanges: bool) -> Floats
     if np.isfinite(trace) and trace > 0.0:
         for k in range(len(load)):
             table[k, k] += ridge * trace
-        if eliminated(table, order, exchanges):
+        if eliminated(table, order):
             return substituted(table, order, load)
     return np.zeros(len(load))

@@ -67,7 +67,7 @@ print(*(name for name, count in kinds.items() if count > 1))
 
 @pytest.mark.slow
 def test_a_wall_compiles_few_functions_each_but_once(tmp_path):
-    """130 with those of numba itself; slices set to slices, and sorts, cost some 60 more."""
+    """157, 103 of them the project's; an array set to a slice costs 37 more, sorts as many."""
     answer = subprocess.run(
         [sys.executable, "-c", COUNTED],
         capture_output=True,
@@ -76,5 +76,5 @@ def test_a_wall_compiles_few_functions_each_but_once(tmp_path):
         env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)},
     )
     count, several = answer.stdout.splitlines()
-    assert int(count) <= 132
+    assert int(count) <= 159
     assert set(several.split()) <= {"ascend", "extended"}  # of numbers of four and of eight bytes

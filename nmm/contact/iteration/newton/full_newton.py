@@ -120,7 +120,7 @@ def _solved(matrix: Floats, load: Floats) -> tuple[Floats, bool]:
         for j in range(n):
             triangles[i, j] = scale[i] * matrix[i, j] * scale[j]
         triangles[i, i] += PIVOT
-    if not eliminated(triangles, order, True):
+    if not eliminated(triangles, order):
         return load, False
     found, rest = np.zeros(n), load.copy()
     best, least = found, math.inf
