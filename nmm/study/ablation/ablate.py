@@ -105,6 +105,8 @@ def ablate(
     NmmError
         When no run has a quantity, or the whole scene cannot be run.
     """
+    # Numbers of summary and history are compared; frames may be asked for by what is left out.
+    scene = scene.model_copy(update={"output": None})
     names = tuple(quantities) or _asked(scene)
     for name in names:
         check_quantity_name(scene, name)

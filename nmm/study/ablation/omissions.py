@@ -12,9 +12,16 @@ Tables = dict[str, Any]
 
 TABLES = {
     "gravity": ("gravity",),
-    "inertia": ("inertia",),
+    "inertia": (
+        "inertia",
+        "damping",
+        "initial_velocities",
+        "dashpots",
+        "viscous_boundaries",
+        "free_fields",
+    ),
     "damping": ("damping",),
-    "contact": ("contact",),
+    "contact": ("contact", "splitting"),
     "fracture": ("fracture",),
     "fracture in time": ("fracture",),
     "cohesive zones": ("cohesive_zones",),
@@ -35,7 +42,7 @@ TABLES = {
     "joint flow": ("joint_flow", "joint_heads"),
     "transient joint flow": ("joint_flow", "joint_heads"),
 }
-"""Keys of a scene that go with an effect that is left out."""
+"""Keys of a scene that go with an effect that is left out: its own, and those that need it."""
 LISTS = {
     "loads": ("loads",),
     "members": ("springs", "dashpots", "bars", "foundations", "masses"),
@@ -97,6 +104,9 @@ def _without(scene: Tables, keys: tuple[str, ...]) -> Tables:
     found = {key: value for key, value in scene.items() if key not in keys}
     for listed in (key for tables in LISTS.values() for key in tables if key in keys):
         found = _unlisted(found, listed, {entry["name"] for entry in scene.get(listed, ())})
+    if "inertia" in keys and "supports" in found:  # ground that records move stands still
+        held = [{key: one[key] for key in one if key != "motion"} for one in found["supports"]]
+        found["supports"] = held
     return found
 
 

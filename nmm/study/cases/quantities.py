@@ -79,7 +79,7 @@ def check_quantity_name(scene: "Scene", name: str) -> None:
     """
     from nmm.model.consistency import known_quantities, may_have_column
 
-    known = ["energy", *known_quantities(scene)]
+    known = list(dict.fromkeys(["energy", *known_quantities(scene)]))
     reduction, _, column = name.partition(":")
     sought = column if reduction in _REDUCED else name
     if sought not in known and not may_have_column(scene, sought, known):

@@ -54,10 +54,54 @@ def test_changes_are_shares_of_the_motion_as_a_whole(thrown):
     np.testing.assert_allclose(thrown.changes(row), [0.0, fallen / (3 * T)], atol=1e-6)
 
 
-def test_what_cannot_be_left_out_alone_is_told_and_the_rest_goes_on(thrown):
+def test_a_free_body_has_no_rest_without_inertia_and_the_other_rows_go_on(thrown):
     row = next(row for row in thrown.rows if row.name == "inertia")
-    assert row.verdict not in ("", "converged")
+    assert row.verdict == "collapsed"
     assert len(thrown.rows) == 5
+
+
+def test_what_cannot_be_left_out_alone_is_told_and_the_rest_goes_on():
+    cracked = "\n[contact]\n[interfaces.any]\nfriction_angle = 0.0\nbonded = true\n"
+    cracked += "tensile_strength = 1e6\ncohesion = 1e6\n"
+    cracked += '[[cracks]]\nname = "c"\npoints = [[0, 0.5], [1, 0.5]]\nbonded = true\n'
+    method = {"cover": {"type": "triangles", "size": 0.6}, "integrator": {"step": 0.1}}
+    found = ablate(nmm.parse_scene(THROWN + cracked), Formulation.model_validate(method))
+    row = next(row for row in found.rows if row.name == "contact")
+    assert row.verdict.startswith("cannot be left out alone")
+    assert "crack" in row.verdict
+    assert [one.verdict for one in found.rows].count("converged") >= 3
+
+
+def test_contact_is_left_out_of_a_scene_that_stores_what_happens_to_it():
+    stored = '\n[contact]\n[output]\nevents = ["first_contact"]\n'
+    stored += "[interfaces.any]\nfriction_angle = 0.0\n"
+    short = {"integrator": {"step": 0.1}}
+    found = ablate(nmm.parse_scene(THROWN + stored), Formulation.model_validate(short))
+    row = next(row for row in found.rows if row.name == "contact")
+    np.testing.assert_allclose(row.values, [3 * T, (LIFT - G) * T**2 / 2], atol=1e-6)
+
+
+SWAYING = text.scene(
+    'plane = "stress"\nduration = 0.02\n[inertia]\n[damping]\nmass = 1.0\n',
+    [
+        text.material("a", 1e6, 0.0, 2000.0),
+        text.box("b", (0, 0), (1, 1), "a"),
+        "[records.quake]\nsamples = [[0, 0], [0.01, 1]]\n",
+        text.held_edge("base", [(0, 0), (1, 0)]) + 'motion = { x = "quake" }\n',
+        '[[dashpots]]\nname = "d"\npoints = [[1, 1], [2, 1]]\n'
+        'blocks = ["b", "ground"]\nviscosity = 1e3\n',
+        '[[initial_velocities]]\nblock = "b"\nvelocity = [0.1, 0]',
+        '[[loads]]\nname = "down"\nkind = "edge"\nsegment = [[0, 1], [1, 1]]\ntraction = [0, -1e3]',
+        '[[monitors]]\nname = "m"\npoint = [0.5, 1]',
+    ],
+)
+
+
+def test_what_needs_inertia_goes_with_it_and_the_rest_stands_under_its_loads():
+    found = ablate(nmm.parse_scene(SWAYING), Formulation())
+    row = next(row for row in found.rows if row.name == "inertia")
+    # A column of 1 m under 1 kPa; its foot on springs of a thousand moduli.
+    np.testing.assert_allclose(row.values, [0.0, -1e-3], atol=2e-6)
 
 
 def test_every_effect_of_the_scene_has_a_line_of_the_table(thrown):
@@ -69,8 +113,9 @@ def test_every_effect_of_the_scene_has_a_line_of_the_table(thrown):
 
 def test_the_verdict_names_what_matters_most_first(thrown):
     """Without velocity, gravity and lift 1.2, 0.785 and 0.08 m of 1.2 m are missing."""
-    wanted = "matters: initial velocity (100 %), gravity (65.4 %), load lift (6.67 %)"
-    assert ablation_verdict(thrown) == f"{wanted}; below 0.1 %: finite rotation"
+    wanted = "initial velocity (100 %), gravity (65.4 %), load lift (6.67 %)"
+    falls = "matters: inertia (collapsed without)"
+    assert ablation_verdict(thrown) == f"{falls}, {wanted}; below 0.1 %: finite rotation"
 
 
 def test_the_verdict_names_first_what_the_scene_collapses_without():
