@@ -52,7 +52,7 @@ EFFECTS: Registry[type[Effect]] = Registry(
         "masses": "nmm.effects.members.masses:PointMasses",
         "contact": "nmm.effects.contact:Contact",
         "fracture": "nmm.fracture.growth.crack_growth:CrackGrowth",
-        "fracture in time": "nmm.fracture.growth.in_time:GrowthInTime",
+        "fracture in time": "nmm.fracture.growth.motion.in_time:GrowthInTime",
         "cohesive zones": "nmm.fracture.cohesive.zones:CohesiveZones",
         "splitting": "nmm.splitting.splitting:Splitting",
         "unreleased forces": "nmm.effects.unreleased:UnreleasedForces",

@@ -9,10 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from nmm.testing.block_covers import check_block_cover as check_block_cover
-    from nmm.testing.bond_laws import check_bond_law as check_bond_law
     from nmm.testing.controls import check_control as check_control
     from nmm.testing.covers import check_cover as check_cover
-    from nmm.testing.criteria import check_criterion as check_criterion
     from nmm.testing.effects.moved import check_moved_effect as check_moved_effect
     from nmm.testing.effects.promises import check_effect as check_effect
     from nmm.testing.effects.promises import check_effect_of as check_effect_of
@@ -20,30 +18,32 @@ if TYPE_CHECKING:
     from nmm.testing.enforcements import check_smooth_enforcement as check_smooth_enforcement
     from nmm.testing.impositions import check_imposition as check_imposition
     from nmm.testing.integrators import check_integrator as check_integrator
-    from nmm.testing.interface_laws import check_interface_law as check_interface_law
-    from nmm.testing.laws import check_law as check_law
+    from nmm.testing.laws.bonds import check_bond_law as check_bond_law
+    from nmm.testing.laws.criteria import check_criterion as check_criterion
+    from nmm.testing.laws.interfaces import check_interface_law as check_interface_law
+    from nmm.testing.laws.materials import check_law as check_law
+    from nmm.testing.laws.strengths import check_strength as check_strength
     from nmm.testing.outputs import check_output as check_output
     from nmm.testing.solvers import check_solver as check_solver
-    from nmm.testing.strengths import check_strength as check_strength
 
 _HOME = {
     "check_block_cover": "block_covers",
-    "check_bond_law": "bond_laws",
+    "check_bond_law": "laws.bonds",
     "check_control": "controls",
     "check_cover": "covers",
-    "check_criterion": "criteria",
+    "check_criterion": "laws.criteria",
     "check_effect": "effects.promises",
     "check_effect_of": "effects.promises",
     "check_enforcement": "enforcements",
     "check_imposition": "impositions",
     "check_integrator": "integrators",
-    "check_interface_law": "interface_laws",
-    "check_law": "laws",
+    "check_interface_law": "laws.interfaces",
+    "check_law": "laws.materials",
     "check_moved_effect": "effects.moved",
     "check_output": "outputs",
     "check_smooth_enforcement": "enforcements",
     "check_solver": "solvers",
-    "check_strength": "strengths",
+    "check_strength": "laws.strengths",
 }
 
 __all__ = list(_HOME)

@@ -6,16 +6,16 @@ from dataclasses import replace
 from nmm.stepping.audits.balance import balance
 from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings
 from nmm.stepping.audits.bodies import bodies
-from nmm.stepping.audits.closed_cracks import closed_cracks
 from nmm.stepping.audits.energy import energy
 from nmm.stepping.audits.equations import equations
 from nmm.stepping.audits.fields import fields
-from nmm.stepping.audits.growth import growth
+from nmm.stepping.audits.matter.closed_cracks import closed_cracks
+from nmm.stepping.audits.matter.growth import growth
+from nmm.stepping.audits.matter.softening import softening
+from nmm.stepping.audits.matter.splitting import splitting
+from nmm.stepping.audits.matter.strains import strains
 from nmm.stepping.audits.paths import paths
-from nmm.stepping.audits.softening import softening
-from nmm.stepping.audits.splitting import splitting
 from nmm.stepping.audits.steps import steps
-from nmm.stepping.audits.strains import strains
 from nmm.stepping.drive.verdict import CONVERGED, FAILURE, UNBALANCED, RunVerdict
 
 AUDITS: tuple[Callable[[EndedRun], Findings], ...] = (

@@ -9,7 +9,7 @@ from nmm.errors import FormulationError
 from nmm.materials.elastic import Elastic
 from nmm.materials.neo_hookean import NeoHookean
 from nmm.materials.von_mises import VonMisesPlasticity
-from nmm.testing.laws import check_law
+from nmm.testing.laws.materials import check_law
 from nmm.verification.problems.finite.laws import SKEW
 
 E, NU = 1.0, 0.3

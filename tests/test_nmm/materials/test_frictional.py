@@ -7,7 +7,7 @@ from scipy.optimize import LinearConstraint, minimize
 from nmm.errors import FormulationError
 from nmm.materials.drucker_prager import DruckerPragerPlasticity
 from nmm.materials.mohr_coulomb import MohrCoulombPlasticity
-from nmm.testing.laws import check_law, start_of
+from nmm.testing.laws.materials import check_law, start_of
 from nmm.verification.problems.matter.returns import returned
 
 DEGREE = np.pi / 180

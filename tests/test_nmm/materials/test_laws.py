@@ -12,7 +12,7 @@ from nmm.materials.elastic import Elastic, elastic_energy
 from nmm.materials.mohr_coulomb import MohrCoulombPlasticity
 from nmm.materials.von_mises import VonMisesPlasticity
 from nmm.scene import parse_scene
-from nmm.testing.laws import check_law, start_of
+from nmm.testing.laws.materials import check_law, start_of
 from nmm.testing.scenes import pulled_bar
 
 STEEL = VonMisesPlasticity(200e9, 0.3, 250e6, 20e9)

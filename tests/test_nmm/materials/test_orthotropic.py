@@ -7,7 +7,7 @@ import nmm
 from nmm.errors import FormulationError
 from nmm.materials.elastic import Elastic
 from nmm.materials.orthotropic import Orthotropic
-from nmm.testing.laws import check_law
+from nmm.testing.laws.materials import check_law
 
 DEGREE = np.pi / 180
 E1, E2, NU, G = 12e9, 0.9e9, 0.38, 0.7e9

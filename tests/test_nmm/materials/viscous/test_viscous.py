@@ -5,7 +5,7 @@ import pytest
 
 from nmm.errors import FormulationError
 from nmm.materials.viscous.laws import Burgers, Kelvin, Maxwell, StandardSolid
-from nmm.testing.laws import check_law, start_of
+from nmm.testing.laws.materials import check_law, start_of
 
 NU = 0.25
 ELASTIC, SOFT = (2 * 10e9 * (1 + NU), NU), (2 * 5e9 * (1 + NU), NU)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nmm.fracture.growth.inflow import EnergyInflow
+from nmm.fracture.growth.motion.inflow import EnergyInflow
 
 BOUND, PIECE = 100.0, np.array([2.0])
 FIRST = np.array([0])

@@ -11,8 +11,8 @@ from nmm.assembly.state import State
 from nmm.effects.base import Instant
 from nmm.errors import NmmError
 from nmm.formulation import Formulation, parse_formulation
-from nmm.fracture.growth.running import RunningTips
-from nmm.fracture.growth.speed import freund, rayleigh_part
+from nmm.fracture.growth.motion.running import RunningTips
+from nmm.fracture.growth.motion.speed import freund, rayleigh_part
 from nmm.scene.model import Scene
 from nmm.scene.read import parse_scene
 from nmm.stepping.run import Run

@@ -14,14 +14,14 @@ import numpy as np
 from integration.arrays import Bools, Floats
 from nmm.assembly.state import State
 from nmm.effects.base import Instant, Setup
-from nmm.fracture.growth.branching import TWO, Branching
 from nmm.fracture.growth.growing import GrowingCracks
 from nmm.fracture.growth.grown import GrownSoFar, nearest_elements
-from nmm.fracture.growth.inflow import EnergyInflow
-from nmm.fracture.growth.released_tractions import ReleasedTractions, tractions_on_new_faces
+from nmm.fracture.growth.motion.branching import TWO, Branching
+from nmm.fracture.growth.motion.inflow import EnergyInflow
+from nmm.fracture.growth.motion.released_tractions import ReleasedTractions, tractions_on_new_faces
+from nmm.fracture.growth.motion.running import RunningTips
+from nmm.fracture.growth.motion.speed import SPEEDS, rayleigh_speeds
 from nmm.fracture.growth.rule import ROUNDING
-from nmm.fracture.growth.running import RunningTips
-from nmm.fracture.growth.speed import SPEEDS, rayleigh_speeds
 from nmm.fracture.growth.tips.intensities import Intensities, tip_moduli
 
 if TYPE_CHECKING:

@@ -1,0 +1,1 @@
+"""Crack growth in time: speed and energy of tips that run, branches, and tractions they release."""
