@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
+from covers.concatenate import concatenate
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
-from nmm.constraints.imposition import Imposition, Method
+from nmm.constraints.imposition import Imposition, Method, chosen
 from nmm.constraints.interface import nearest
 from nmm.constraints.laid_springs import free_where, laid_under_stress, stretch_of
-from nmm.constraints.nitsche.linear_matter import method_for
 from nmm.constraints.shared_edges import EDGE_ORDER, bonded_stiffness, gauss_interface, shared_edges
 from nmm.constraints.springs import Springs, glue_stiffness, joint_springs
 from nmm.constraints.tied_interfaces import TiedInterfaces
@@ -133,18 +133,14 @@ class _Anchors:
 
         Where none is known between them it is zero.
         """
-        regions, position, values = (
-            np.concatenate([getattr(one, name) for one in known])
-            for name in ("regions", "position", "values")
-        )
-        _, pair = np.unique(np.concatenate([regions, self.regions]), axis=0, return_inverse=True)
-        old, new = np.split(pair.ravel(), [len(regions)])
-        far = 2 * float(np.ptp(np.concatenate([position, self.position]), axis=0).sum())
-        places = (
-            np.column_stack([position, far * old]),
-            np.column_stack([self.position, far * new]),
-        )
-        found = nearest(places[1], places[0], values)
+        all_known = concatenate(known, {})
+        both = concatenate([all_known, self], {})
+        _, pair = np.unique(both.regions, axis=0, return_inverse=True)
+        far = 2 * float(np.ptp(both.position, axis=0).sum())
+        places = np.column_stack([both.position, far * pair.ravel()])
+        count = len(all_known.position)
+        old, new = np.split(pair.ravel(), [count])
+        found = nearest(places[count:], places[:count], all_known.values)
         return self.sign * np.where(np.isin(new, old)[:, None], found, 0.0)
 
 
@@ -160,16 +156,14 @@ def _least_cut(model: Model, ties: Sequence[Imposition]) -> float:
 
 def glue_edges(model: Model, joints: Joints, part: "Glue", size: float | None) -> list[Imposition]:
     """Return the ties of edges; ``size`` is that of a mesh's cells, None for blocks (m)."""
-    degree, auto = model.manifold.degree, part.method == "auto"
-    asked = method_for(model, part.method, "spring")
-    kind = "nitsche" if asked == "auto" else asked
+    degree, kind = model.manifold.degree, chosen(model, part.method, "spring")
     method = Method(kind, size, degree, part.stiffness, part.gamma)
     interface = gauss_interface(model, joints, max(EDGE_ORDER, 2 * degree + 2))
     tie = method.impose(model, [interface])[0]
     free = tie.free
     if not free.any():
         return [tie]
-    if not auto:
+    if part.method != "auto":
         x, y = interface.first.position[free][0]
         raise FormulationError(
             f'[glue] method: "{kind}": at [{x:.6g}, {y:.6g}] neither side has functions with '

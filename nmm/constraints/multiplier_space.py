@@ -6,12 +6,12 @@ each group the multipliers are the tractions ``sigma n`` of all polynomial stres
 along a straight line polynomials of the arc, around corners what no line of its own has room for.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.sparse import csr_array
 
+from covers.concatenate import numbers
 from integration.arrays import Bools, Floats, Ints
 from integration.monomials import evaluate, exponents
 from integration.plane_vectors import counterclockwise
@@ -48,7 +48,7 @@ class FacePieces:
     start: Floats
     end: Floats
     line: Ints
-    piece: Ints
+    piece: Ints = field(metadata=numbers("piece"))
     position: Floats
     normal: Floats
     weight: Floats
@@ -81,15 +81,6 @@ def traction_degree(model: Model) -> int:
     """Degree of the stresses of the polynomials that displacements hold where they are richest."""
     richest = model.manifold.richest
     return max((model.manifold.degree if richest is None else richest) - 1, 0)
-
-
-def join(parts: Sequence[FacePieces]) -> FacePieces:
-    """Return pieces of several places as those of one."""
-    first = np.cumsum([0] + [len(part.start) for part in parts])
-    piece = [part.piece + before for part, before in zip(parts, first, strict=False)]
-    names = ("start", "end", "line", "position", "normal", "weight")
-    joined = {name: np.concatenate([getattr(part, name) for part in parts]) for name in names}
-    return FacePieces(**joined, piece=np.concatenate(piece))
 
 
 def multipliers(pieces: FacePieces, size: float, degree: int, held: Bools) -> csr_array:

@@ -7,13 +7,13 @@ from typing import ClassVar, Self
 import numpy as np
 from scipy.sparse import csr_array, diags_array
 
+from covers.concatenate import concatenate, starts
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.state import State, initial_state
-from nmm.constraints.imposition import Imposition, Method
+from nmm.constraints.imposition import Imposition, Method, MultiplierValues
 from nmm.constraints.interface import Interface, Triplets, sparse_rows
-from nmm.constraints.multiplier_space import join, multipliers, pieces_of, traction_degree
-from nmm.constraints.multiplier_values import MultiplierValues
+from nmm.constraints.multiplier_space import multipliers, pieces_of, traction_degree
 
 # A condition that others imply up to this share of it is left out, and one that is this share of
 # the largest: it is the rounding of none. The first is the root of what products of rows resolve.
@@ -66,7 +66,8 @@ class Multipliers(Imposition):
         """Impose conditions on interfaces by shared multipliers."""
         # A block is one cell: each of its joints has multipliers of its own.
         size = sum(one.first.weight.sum() for one in parts) if method.size is None else method.size
-        pieces = join([pieces_of(model, one) for one in parts])
+        each = [pieces_of(model, one) for one in parts]
+        pieces = concatenate(each, {"piece": starts([len(one.start) for one in each])})
         basis = multipliers(pieces, size, traction_degree(model), parts[0].held)
         values, first, found = MultiplierValues(int(basis.shape[1])), 0, []
         for one in parts:  # supports: a handful

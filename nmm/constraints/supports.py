@@ -14,7 +14,6 @@ from nmm.assembly.stress_points import StressAt
 from nmm.constraints.imposition import Imposition, Method, support_method
 from nmm.constraints.interface import Interface, nearest
 from nmm.constraints.laid_springs import free_where, laid_under_stress, stretch_of
-from nmm.constraints.nitsche.linear_matter import method_for
 from nmm.constraints.nitsche.volume_lift import sharing
 from nmm.constraints.points_under_stress import laid_at_points
 from nmm.constraints.tied_interfaces import TiedInterfaces
@@ -61,10 +60,7 @@ class Supports(TiedInterfaces):
         scene, cover = setup.scene, setup.formulation.cover
         size = cover.finest if setup.model.manifold.shared_covers else None
         part = setup.formulation.supports
-        if size is not None:
-            kind = method_for(setup.model, part.method, "penalty")
-            part = part.model_copy(update={"method": kind})
-        method = support_method(part, size, cover.highest_degree)
+        method = support_method(setup.model, part, size, cover.highest_degree)
         interfaces = [_interface(setup, support, method) for support in scene.supports]
         edges = [i for i, one in enumerate(interfaces) if one.first.normal is not None]
         # At points that are no edge springs, which need no traction.

@@ -13,7 +13,8 @@ import numpy as np
 
 from integration.arrays import Bools, Floats
 from nmm.contact.bonds.turning import beside, counted
-from nmm.contact.laws.contact_laws import Springs
+from nmm.contact.laws.contact_laws import ContactLaws, Springs
+from nmm.contact.laws.failing_bonds import break_bonds
 from nmm.contact.points.contact_points import TIED, ContactPoints
 from nmm.contact.problem.step_problem import StepAnswer
 from nmm.interfaces.limits import Limits
@@ -28,6 +29,26 @@ ABOVE_LEAST = 10.0
 
 # Contacts with forces and jumps (m,) at an instant: as they stand, or as an answer leaves them.
 LoadedContacts = ContactPoints | StepAnswer
+
+
+def given_way(
+    laws: ContactLaws,
+    contacts: ContactPoints,
+    gone: tuple[Bools, Bools],
+    loaded: LoadedContacts,
+    springs: Springs,
+    limits: Limits,
+) -> tuple[ContactPoints, float]:
+    """Return contacts with overloaded bonds released or broken, and the energy of `released` (J).
+
+    ``gone`` marks the overloaded bonds (m,), and the brittle ones among them.
+    """
+    (overloaded, brittle), stored = gone, 0.0
+    freed = overloaded & contacts.tied
+    if freed.any():
+        least = laws.least_stiffness(contacts)
+        contacts, stored = released(contacts, freed, brittle, loaded, springs, limits, least)
+    return break_bonds(laws, contacts, brittle), stored
 
 
 def released(

@@ -8,6 +8,7 @@ from typing import Self, TypeVar
 
 import numpy as np
 
+from covers.concatenate import concatenate
 from integration.arrays import Bools, Floats, Ints
 from integration.plane_vectors import dot
 from nmm.contact.detection.tolerances import FACING
@@ -86,9 +87,7 @@ Some = TypeVar("Some", bound=Contacts)
 
 def joined(parts: Sequence[Some]) -> Some:
     """Return contacts of one kind together, in order of keys."""
-    names = [part.name for part in fields(parts[0])]
-    columns = ([getattr(part, name) for part in parts] for name in names)
-    together = type(parts[0])(*(np.concatenate(column) for column in columns))
+    together = concatenate(parts, {})
     return together.take(np.argsort(together.key, kind="stable"))
 
 

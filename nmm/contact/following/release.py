@@ -5,10 +5,9 @@ from dataclasses import replace
 import numpy as np
 
 from integration.arrays import Bools
-from nmm.contact.bonds.release import released
+from nmm.contact.bonds.release import given_way
 from nmm.contact.bonds.turning import beside
 from nmm.contact.laws.contact_laws import ContactLaws
-from nmm.contact.laws.failing_bonds import break_bonds
 from nmm.contact.points.contact_points import AT_ENDS
 from nmm.contact.problem.step_problem import BROKEN
 from nmm.contact.solution.record import ContactRecord, ContactSolution
@@ -29,13 +28,8 @@ def let_go(
     contacts, springs = solved.contacts, laws.springs(solved.contacts)
     limits = laws.response(contacts, springs[0]).limits
     freed, lost = gone & contacts.tied, gone & laws.brittle[contacts.interface]
-    after, shed = contacts, 0.0
-    if freed.any():
-        ended = {name: getattr(solved.answer, name) for name in AT_ENDS}
-        before = replace(contacts, **ended)
-        least = laws.least_stiffness(contacts)
-        after, shed = released(before, freed, lost, solved.answer, springs, limits, least)
-    after = break_bonds(laws, after, lost)
+    ended = replace(contacts, **{name: getattr(solved.answer, name) for name in AT_ENDS})
+    after, shed = given_way(laws, ended, (gone, lost), solved.answer, springs, limits)
     points = record.book.points
     order = np.argsort(contacts.key)
     at = order[np.searchsorted(contacts.key[order], points.key)]

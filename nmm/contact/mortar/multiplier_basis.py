@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from covers.concatenate import concatenate
 from integration.arrays import Bools, Floats, Ints
 from integration.plane_vectors import dot
 from nmm.contact.detection.surface import Surface
@@ -80,8 +81,7 @@ def _on_runs(at: Floats, new: Bools, space: TraceSpace, free: Bools) -> Entries:
             part = _hats(at[points], new[points], node, free[points])
             parts.append(Entries(points[part.point], count + part.function, part.value))
             count += int(part.function.max()) + 1
-    columns = zip(*((part.point, part.function, part.value) for part in parts), strict=True)
-    return Entries(*(np.concatenate(column) for column in columns))
+    return concatenate(parts, {})
 
 
 def _sides(

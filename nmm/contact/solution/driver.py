@@ -14,12 +14,12 @@ from scipy.sparse import csc_array
 from integration.arrays import Bools, Floats
 from integration.contraction import some
 from nmm.assembly.model import Model
-from nmm.contact.bonds.release import LoadedContacts, released, tied_energy
+from nmm.contact.bonds.release import LoadedContacts, given_way, tied_energy
 from nmm.contact.enforcement.base import Enforcement
 from nmm.contact.enforcement.rebalanced import solve_rebalanced
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.dashpots import RigidMass
-from nmm.contact.laws.failing_bonds import break_bonds, breaking
+from nmm.contact.laws.failing_bonds import breaking
 from nmm.contact.laws.history_iteration import HistoryIteration
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.contact_rows import ContactRows
@@ -118,7 +118,9 @@ class ContactSolver:
             # In statics bonds break at the load of the answer; in time a step goes without them.
             loaded = answer if request.step is None else contacts
             loss += _lost(agreed.posed.problem, loaded, brittle, contacts)
-            contacts, stored = self._broken(iteration, contacts, loaded, (broken, brittle))
+            springs, limits = iteration.springs, iteration.response.limits
+            overloaded = broken, brittle
+            contacts, stored = given_way(self._laws, contacts, overloaded, loaded, springs, limits)
             loss += stored
             gone = BrokenBonds(contacts, loss)
             besides = more(contacts) if freed.any() else besides
@@ -145,26 +147,6 @@ class ContactSolver:
             if iteration.done or not answer.verdict.converged:
                 return _Agreed(iteration, posed, answer, sliding, passes)
             start = answer.increment
-
-    def _broken(
-        self,
-        iteration: HistoryIteration,
-        contacts: ContactPoints,
-        loaded: LoadedContacts,
-        gone: tuple[Bools, Bools],
-    ) -> tuple[ContactPoints, float]:
-        """Return contacts with overloaded bonds released or broken, and the energy of `released`.
-
-        ``loaded`` has the forces on them; ``gone`` marks the overloaded bonds, and the brittle ones
-        among them.
-        """
-        (broken, brittle), stored = gone, 0.0
-        freed = broken & contacts.tied
-        if freed.any():
-            limits, springs = iteration.response.limits, iteration.springs
-            least = self._laws.least_stiffness(contacts)
-            contacts, stored = released(contacts, freed, brittle, loaded, springs, limits, least)
-        return break_bonds(self._laws, contacts, brittle), stored
 
     def acting(self) -> csc_array | None:
         """Return the matrix of the last system with the springs that acted in it."""
