@@ -290,3 +290,33 @@ def test_degrees_beside_differences_of_temperature_are_told(heat, hot, cold, tol
     warned = [one for one in nmm.run(nmm.parse_scene(text)).summary.warnings if "heat: " in one]
     assert len(warned) == bool(told)
     assert told in " ".join(warned)
+
+
+@pytest.mark.parametrize("cover", ["quads", "triangles"])
+@pytest.mark.parametrize("angle", [0.0, 0.5, 2.0])
+def test_beds_turn_the_flux_away_from_the_slope_of_temperature(cover, angle):
+    """A linear temperature held all round: the flux through each edge is that of ``-K grad T``."""
+    along, across, slope = 5.0, 1.0, np.array([3.0, 2.0])
+    corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+    edges = [np.stack([corners[i - 1], corners[i]]) for i in range(4)]
+    held = "".join(
+        f'[[temperatures]]\nname = "edge {i}"\nsegment = {edge.tolist()}\ntemperature = 5.0\n'
+        f"gradient = {slope.tolist()}\n"
+        for i, edge in enumerate(edges)
+    )
+    scene = (
+        'plane = "strain"\n[heat]\n[materials.m]\nlaw = "orthotropic"\nyoung_modulus = 1e9\n'
+        "poisson_ratio = 0.2\nyoung_modulus_2 = 1e9\nshear_modulus = 4e8\n"
+        f"conductivity = {along}\nconductivity_2 = {across}\naxis_angle = {angle}\n"
+        f'[[blocks]]\nname = "b"\nmaterial = "m"\nvertices = {corners.tolist()}\n'
+        '[[supports]]\nname = "s"\nblock = "b"\nfix = ["x", "y"]\n'
+        f'{held}[formulation.cover]\ntype = "{cover}"\nsize = 0.3\n'
+    )
+    run = nmm.run(nmm.parse_scene(scene))
+    axis = np.array([np.cos(angle), np.sin(angle)])
+    tensor = across * np.eye(2) + (along - across) * np.outer(axis, axis)
+    for i, (start, end) in enumerate(edges):
+        way = end - start
+        into = -np.array([way[1], -way[0]])
+        found = run.history[f"heat:taken:edge {i}"][-1]
+        assert found == pytest.approx(-into @ tensor @ slope, abs=1e-9)
