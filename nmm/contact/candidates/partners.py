@@ -41,7 +41,7 @@ class Partners:
     within_bodies
         Whether faces of one body may meet, as those of a crack.
     face_points
-        Points a stretch of faces that lie on each other; 0 where contact is at corners.
+        Points a segment of faces that lie on each other; 0 where contact is at corners.
     whole_faces
         Whether such faces count beyond the reach of the search
         (`nmm.contact.mortar.segments.faced`).

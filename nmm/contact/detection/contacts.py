@@ -1,4 +1,4 @@
-"""Contacts that search finds: vertices before edges, some for a stretch of a face."""
+"""Contacts that search finds: vertices before edges, some for a segment of a face."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ class Contacts:
 
 @dataclass(frozen=True, eq=False)
 class FaceContacts(Contacts):
-    """Contacts of which some stand for a stretch of a face.
+    """Contacts of which some stand for a segment of a face.
 
     A point inside an overlap has the kind `FACE`, and ``vertex`` is the edge it lies on.
 

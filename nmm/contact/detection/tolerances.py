@@ -60,7 +60,7 @@ ALIKE_COSINE = 0.3
 """Cosine between the functions at two corners from which on they count as alike. Under Hertz's
 cylinder pressures of degree 0 are off by 1 % at most with 0.3, by 3 % with 0.1, 13 % with 0.5."""
 ALIKE_FINE = 0.85
-"""The same on stretches of faces with fewer than `ENOUGH_NODES` nodes between their ends."""
+"""The same on segments of faces with fewer than `ENOUGH_NODES` nodes between their ends."""
 ENOUGH_NODES = 3
 """Nodes inside a stretch from which on it is held often enough: with one alone two blocks of three
 cells turned into each other by 1 % of their size, and moved 2.5 times as far."""

@@ -54,7 +54,7 @@ def found_under_stress(
 ) -> ContactPoints:
     """Return found contacts whose springs are stretched as those of joints would be.
 
-    A stretch of a face carries the traction along its length, a corner what it has of the edges
+    A segment of a face carries the traction along its length, a corner what it has of the edges
     that two bodies share from there on. Where contact is ``exact`` nothing has to give for it.
     """
     corners = _at_corners(points, surface, model, stress)

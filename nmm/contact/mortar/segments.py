@@ -44,7 +44,7 @@ LOBATTO = {
 
 @dataclass(frozen=True, eq=False)
 class Overlaps:
-    """Stretches along which two edges face each other.
+    """Mortar segments: along which two edges face each other.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ def face_points(manifold: Manifold, wanted: str, conserves: bool = False) -> int
     """Points an overlap that integrate a uniform pressure on the traces of fields exactly.
 
     0 where corners carry contact: ``wanted`` is "vertices", or "auto" and every block has covers of
-    its own, or springs are to keep energy (``conserves``): the stiffness of stretches changes as
+    its own, or springs are to keep energy (``conserves``): the stiffness of segments changes as
     bodies slide, with no work that pays for it. Edges of meshes are short and many.
     """
     if wanted == "vertices" or (wanted == "auto" and (conserves or not manifold.shared_covers)):

@@ -39,7 +39,7 @@ class TraceSpace:
     node
         (p,) chosen nodes, rising; among them both ends of every face.
     fine
-        (q,) the same that are less unlike, for stretches of faces with few of the others.
+        (q,) the same that are less unlike, for segments of faces with few of the others.
     softness
         (n,) one over Young's modulus at each edge (1/Pa).
     welded

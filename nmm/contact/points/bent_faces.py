@@ -35,7 +35,7 @@ def face_lines(sides: Sides, edge: Ints, parameter: Floats) -> Line:
 def bent_normals(sides: Sides, points: ContactPoints, state: State) -> Floats:
     """Return the normals (m, 2) of points, turned by as much as side b is bent from its chord.
 
-    Inside a stretch of two faces by the mean of both sides': neither is the first. At the tip of
+    Inside a segment of two faces by the mean of both sides': neither is the first. At the tip of
     a crack strain has no bound and no direction: where it would turn them by more than 45 degrees
     they stay across the chord.
     """

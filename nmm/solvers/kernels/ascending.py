@@ -1,4 +1,4 @@
-"""Stretches of whole numbers in ascending order: sorted, and searched, in compiled code.
+"""Runs of whole numbers in ascending order: sorted, and searched, in compiled code.
 
 What numba brings for it takes two seconds to compile, with slices assigned to slices and the words
 of errors that never come: `sort` 0.8 for each type, `searchsorted` 0.4.

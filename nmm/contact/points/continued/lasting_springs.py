@@ -1,9 +1,9 @@
 """Springs of face segments that push: in time they keep the stiffness they began with.
 
-Springs of stretches are as stiff as these are long, and points inside a stretch move with its ends.
+Springs of segments are as stiff as these are long, and points inside a segment move with its ends.
 Both change as bodies turn and slide, with no work that pays for it. So a spring that pushes is one
 of the material until it opens, and inside a face it continues nothing that was open. One that began
-on a short stretch grows stiffer with it, less stretched by ``sqrt(k_0 / k_1)``: it holds what it
+on a short segment grows stiffer with it, less stretched by ``sqrt(k_0 / k_1)``: it holds what it
 held.
 """
 

@@ -1,6 +1,6 @@
 """What points between two bodies take over from others between the same bodies.
 
-They continue none of them: what is found in place of a joint that has slid apart, and stretches of
+They continue none of them: what is found in place of a joint that has slid apart, and segments of
 faces that are pressed together already.
 """
 

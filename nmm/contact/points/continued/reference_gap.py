@@ -4,7 +4,7 @@ Search may find a vertex already inside a body: two corners have passed each oth
 began so. A spring that entered loaded would push with energy from nowhere. Such a contact counts
 its gap from what it was when it appeared, its *reference*. A contact that continues another one, at
 the corner of a body or on the next body, takes over the stretch of that one's spring, and unless
-springs are lasting a stretch of two faces that are pressed together already is pressed like its
+springs are lasting a segment of two faces that are pressed together already is pressed like its
 neighbours. What is found in place of a joint that has slid apart is pressed as the joint was.
 
 The reference recovers without work: when the contact opens, what is left of the overlap becomes the
@@ -56,14 +56,14 @@ def counted(
             giver, taker = old.take(source[handed]), new.take(handed)
             stretch = _passed_on(giver.gap, stiffness(giver) / stiffness(taker))
             reference[handed] = _from_stretch(taker.gap, stretch, most[handed])
-        # A new stretch of lasting springs is not pressed.
+        # A new segment of lasting springs is not pressed.
         born = np.flatnonzero(~before.known & on_face & ~before.lasting)
         if len(born):
             taker = new.take(born)
             stretch, most = beside(taker, old, body)
             reference[born] = _from_stretch(taker.gap, stretch, most)
     if len(left):
-        # A joint stands for all of its length: stretches beside it were not pressed so far.
+        # A joint stands for all of its length: segments beside it were not pressed so far.
         instead = (on_face | ~before.known) & (new.gap < 0) & found_for(left, new, body)
         reference, slip = reference.copy(), new.slip.copy()
         reference[instead], slip[instead] = in_place_of(

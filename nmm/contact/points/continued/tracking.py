@@ -27,7 +27,7 @@ def searched_points(
 ) -> ContactPoints:
     """Return found contacts as points with the initial history of contacts without bond.
 
-    Those that stand for a stretch of a face are as stiff as that is long: as stiff as a vertex of
+    Those that stand for a segment of a face are as stiff as that is long: as stiff as a vertex of
     the body with the shorter edges on ``surface`` when it is half of such an edge.
     """
     m = len(found.gap)

@@ -1,4 +1,4 @@
-"""How the update of a child's front joins the front of its parent: by stretches of rows."""
+"""How the update of a child's front joins the front of its parent: by runs of rows."""
 
 from integration.arrays import Floats, Ints
 from nmm.compiled import compiled
@@ -6,7 +6,7 @@ from nmm.compiled import compiled
 
 @compiled
 def runs(rows: Ints, local: Ints, c: int, start: Ints, shift: Ints) -> tuple[Ints, Ints]:
-    """Stretches of rows that stay neighbours in a front, none across its pivot block's end.
+    """Runs of rows that stay neighbours in a front, none across its pivot block's end.
 
     Their starts, ended by the number of rows, and shifts: row ``i`` of one goes to ``i + shift``.
     ``start`` and ``shift`` are room for them.
@@ -69,7 +69,7 @@ def collect_whole(
 def _add(into: Floats, base: int, column: Floats, begin: int, rows: Ints, moves: Ints) -> None:
     """Add a column from row ``begin`` on; a row of it that is not moved goes to ``base`` and on.
 
-    ``begin`` is in the first of the stretches that start at ``rows``, and move by ``moves``.
+    ``begin`` is in the first of the runs that start at ``rows``, and move by ``moves``.
     """
     for p in range(len(moves)):
         a, b, off = max(begin, rows[p]), rows[p + 1], base + moves[p]
