@@ -1,6 +1,7 @@
 """Springs at points: Shi's fixed points (1988), stiff edges, joint elements (Goodman 1968)."""
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import ClassVar, Self
 
 import numpy as np
@@ -65,13 +66,13 @@ class Springs(Imposition):
 
     def point_forces(self, state: State, jump: Floats) -> Floats:
         found = self._against(state, jump)
-        return found + self._laid(state) if np.any(self.stretch) else found
+        return found + self._laid(state) if self._stretched else found
 
     def energy(self, state: State, jump: Floats) -> float:
         return -0.5 * float((jump * self._against(state, jump)).sum())
 
     def laid_energy(self, state: State, jump: Floats) -> float:
-        return -float((jump * self._laid(state)).sum()) if np.any(self.stretch) else 0.0
+        return -float((jump * self._laid(state)).sum()) if self._stretched else 0.0
 
     @property
     def springs(self) -> Floats:
@@ -79,6 +80,11 @@ class Springs(Imposition):
 
     def laid(self, stretch: Floats) -> Self:
         return replace(self, stretch=stretch)
+
+    @cached_property
+    def _stretched(self) -> bool:
+        """Whether springs are laid with a stretch; asked for in each step."""
+        return bool(np.any(self.stretch))
 
     def _laid(self, state: State) -> Floats:
         """Forces (m, 2) in N with which springs are laid, as these have turned since."""

@@ -36,6 +36,7 @@ def scaled(matrix: csc_array, scale: Floats, shift: float) -> csc_array:
     """``diag(scale) matrix diag(scale)`` plus ``shift`` on the diagonal; zeros keep their place."""
     data, diagonals = _scaled_data(matrix, scale, shift)
     scaled = made_of(csc_array, data, matrix.indices, matrix.indptr, matrix.shape)
+    scaled.has_sorted_indices = matrix.has_sorted_indices
     if shift and diagonals < len(scale):
         from scipy.sparse import eye_array
 

@@ -92,7 +92,9 @@ class SpringPattern:
         )
         cross = np.zeros(len(normal)) if mixed is None else mixed
         _add_springs(data, self.unknowns, self.run_start, rows[0], rows[1], normal, shear, cross)
-        return made_of(csc_array, data, self.indices, self.indptr, problem.matrix.shape)
+        made = made_of(csc_array, data, self.indices, self.indptr, problem.matrix.shape)
+        made.has_sorted_indices = True  # or each matrix is looked through for it
+        return made
 
     def _in_full(self, entries: Floats, places: Index) -> Floats:
         """Entries (m, L) of rows at their places; those of full rows stand there already."""

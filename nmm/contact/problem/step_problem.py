@@ -118,7 +118,7 @@ class StepProblem:
     @MadeOnce
     def stiffness(self) -> Floats:
         """(2, m) normal and shear stiffness (N/m)."""
-        return np.stack([self.normal_stiffness, self.shear_stiffness])
+        return np.array((self.normal_stiffness, self.shear_stiffness))
 
     def weight_with(self, stiffness: Floats) -> Floats:
         """The same with another stiffness (2, m) of the springs."""
