@@ -4,14 +4,13 @@ from functools import cached_property
 from typing import Self
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array, diags_array
+from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from integration.contraction import some
 from nmm.assembly.applied_forces import AppliedForces
 from nmm.assembly.kept import KeptOfStates
 from nmm.assembly.model import Model
-from nmm.assembly.momenta import rigid_masses
 from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.solvers.unchecked import product
@@ -67,21 +66,21 @@ class Inertia(Effect):
         spin = self.spin(state)
         if not (self._axes_turn and some(spin)):
             return None
+        body, (turn, stretched) = self._model.manifold.unknown_body, self._turns
         half_way = state.deformation + step / 2 * state.velocity
-        return product(self._turns, 2 * step * spin * product(self._stretched, half_way))
+        stretch = np.bincount(body, stretched * half_way, len(spin))
+        return np.asarray(2 * step * (spin * stretch)[body] * turn)
 
     @cached_property
-    def _turns(self) -> csc_array:
-        """Unknowns (n, B) of a turn of each body."""
-        return csc_array(self._model.manifold.rigid_modes[:, 2::3])
-
-    @cached_property
-    def _stretched(self) -> csr_array:
-        """Rows (B, n): ``s / J0``; zero of a body without mass."""
-        inertia = rigid_masses(self._model)[:, 2]
-        share = np.divide(1.0, inertia, out=np.zeros_like(inertia), where=inertia > 0)
-        stretch = self._model.manifold.stretch_modes
-        return csr_array(diags_array(share) @ (stretch.T @ self.mass))
+    def _turns(self) -> tuple[Floats, Floats]:
+        """Unknowns (n,) of a turn of every body; factors of unknowns in its ``s / J0``."""
+        manifold = self._model.manifold
+        body, bodies = manifold.unknown_body, manifold.n_bodies
+        turn = product(manifold.rigid_modes, np.tile([0.0, 0.0, 1.0], bodies))
+        inertia = np.bincount(body, turn * product(self.mass, turn), bodies)[body]
+        stretch = product(self.mass, product(manifold.stretch_modes, np.ones(bodies)))
+        heavy = inertia > 0  # what has no mass is not slowed
+        return turn, np.divide(stretch, inertia, out=np.zeros_like(stretch), where=heavy)
 
     def _centrifugal(self, state: State) -> Floats:
         """Return ``omega^2 (X - Xc)`` in unknowns (n,); zero in axes that do not turn."""

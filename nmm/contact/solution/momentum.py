@@ -14,6 +14,7 @@ from nmm.assembly.state import State
 from nmm.contact.detection.tolerances import (
     MIDPOINT_GAPS,
     MIDPOINT_GAPS_OF_MESHES,
+    MIDPOINT_STRAIN,
     MIDPOINT_WAYS,
     MIDPOINT_WAYS_OF_MESHES,
 )
@@ -48,7 +49,8 @@ class Momentum:
     ) -> State | None:
         """Where the forces of a step should have acted; None if ``used`` (None: before) will do.
 
-        Gaps are off by about a rotation times a motion; that matters beside the penetrations.
+        Gaps are off by about a rotation times a motion, and at the start of a step, whose rows turn
+        bodies as if they were not strained, times that; it matters beside the penetrations.
         """
         if self._from_start:
             return None
@@ -57,6 +59,8 @@ class Momentum:
         turned, moved = turn, way
         if used is not None:
             turned, moved = _motion(used, middle(before, after))
+        else:
+            moved = moved + MIDPOINT_STRAIN * self._strained(before)
         motions = turn, way + turn * self._across, turned, moved
         edge_a, edge_b, force, gap = _pressing(solved.contacts, solved.answer)
         share, least = MIDPOINT_GAPS, MIDPOINT_WAYS
@@ -139,6 +143,13 @@ class Momentum:
         acting += cross(before.to_global(every, known) - way, force) / 2
         turned = left[:, 2] + acted[:, 2] - acting - cross(way, lacking) / 2
         return np.column_stack([after.to_body(every, lacking), turned]).ravel()
+
+    def _strained(self, state: State) -> Floats:
+        """Return how far (B,) the strain of bodies moves their corners at most (m)."""
+        away = self._sides.start.rows.apply(state.deformation)
+        found = np.zeros(len(state.frames.angle))
+        np.maximum.at(found, self._bodies, np.hypot(away[:, 0], away[:, 1]))
+        return found
 
     @property
     def _bodies(self) -> Ints:
