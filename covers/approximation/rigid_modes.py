@@ -66,12 +66,12 @@ def _modes(
         index = np.flatnonzero(kinds.which == number)
         arm = (covers.centre if nodes is None else nodes)[index]
         arm = arm - body_centroid[covers.body[index]]
-        held = 1.0 if nodes is None else 0.0
+        constant = 1.0 if nodes is None else 0.0
         still = (len(index), 2, 2)
         unknowns = [
             item.linear_field(
                 value + arm @ gradient.T,
-                np.broadcast_to(held * gradient, still),
+                np.broadcast_to(constant * gradient, still),
                 covers.matrix[index],
             )
             for value, gradient in fields

@@ -134,9 +134,9 @@ class Transfer:
         stiff, heavy = matrix.diagonal().sum(), mass.diagonal().sum()
         if not stiff > 0:  # no common material has strain
             return found
-        held = NormalEquations(csc_array(matrix + MADE_UNIQUE * stiff / heavy * mass))
+        normal = NormalEquations(csc_array(matrix + MADE_UNIQUE * stiff / heavy * mass))
         start = found[free]
-        found[free] = held.iterated(matrix, side[free], start, self._without_rigid)
+        found[free] = normal.iterated(matrix, side[free], start, self._without_rigid)
         return found
 
     def sums(self, values: Floats) -> Floats:

@@ -70,9 +70,9 @@ def _near_bins(first: Floats, last: Floats, low: Floats, high: Floats, size: flo
     (i, j), (k, m) = bins(low).T, bins(high).T + 1
     for row, column, sign in ((i, j, 1), (k, j, -1), (i, m, -1), (k, m, 1)):
         np.add.at(filled, (row, column), sign)
-    held = filled.cumsum(axis=0).cumsum(axis=1)[:-1, :-1] > 0
+    occupied = filled.cumsum(axis=0).cumsum(axis=1)[:-1, :-1] > 0
     total = np.zeros(shape + 1, dtype=np.int64)
-    total[1:, 1:] = held.cumsum(axis=0).cumsum(axis=1)
+    total[1:, 1:] = occupied.cumsum(axis=0).cumsum(axis=1)
     (i, j), (k, m) = bins(first).T, bins(last).T + 1
     return np.asarray(total[k, m] - total[i, m] - total[k, j] + total[i, j] > 0)
 

@@ -104,11 +104,11 @@ def calibrate(
         )
         for one in work.measured(work.CHECKED) if check else ():
             spent, said = one.preparing + one.running, model.seconds(one.size)
-            held, told = float(one.memory or 0), model.bytes(one.size)
+            measured, told = float(one.memory or 0), model.bytes(one.size)
             typer.echo(
                 f"{one.name}, {one.size.unknowns:,} unknowns: predicted {said:.3g} s, measured "
                 f"{spent:.3g} s, factor {factor(said, spent):.2f}; predicted {told / 2**20:.0f} "
-                f"MiB, measured {held / 2**20:.0f} MiB, factor {factor(told, held):.2f}"
+                f"MiB, measured {measured / 2**20:.0f} MiB, factor {factor(told, measured):.2f}"
             )
 
 

@@ -92,7 +92,7 @@ def _cracks(setup: Setup) -> BondedCracks:
     """Return the cracks whose faces are bonded at first."""
     geometry = setup.geometry
     others = geometry.free if geometry.bonded else ()
-    return BondedCracks(geometry.held, others, MOVED * setup.model.cut.crack_tolerance)
+    return BondedCracks(geometry.bonded_cracks, others, MOVED * setup.model.cut.crack_tolerance)
 
 
 def _joint_rule(method: ContactMethod, laws: ContactLaws, manifold: Manifold) -> tuple[str, int]:

@@ -36,7 +36,7 @@ class Geometry:
     nuclei: tuple[int, ...] = ()
 
     @property
-    def held(self) -> tuple[Floats, ...]:
+    def bonded_cracks(self) -> tuple[Floats, ...]:
         """The cracks whose faces begin bonded."""
         return tuple(self.cracks[number] for number in self.bonded)
 

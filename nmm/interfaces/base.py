@@ -168,8 +168,10 @@ class InterfaceLaw(ABC):
 
     def friction(self, history: History) -> Floats:
         """Return the tangent (m,) of the friction angle: residual where the bond is broken."""
-        held = history["bonded"] | (not self.bonded)
-        return np.asarray(np.where(held, np.tan(self.friction_angle), np.tan(self.residual_angle)))
+        intact = history["bonded"] | (not self.bonded)
+        return np.asarray(
+            np.where(intact, np.tan(self.friction_angle), np.tan(self.residual_angle))
+        )
 
     def rise(self, history: History) -> Floats:
         """Return the opening (m,) by dilation, in m."""

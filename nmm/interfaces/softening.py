@@ -79,11 +79,11 @@ class Softening(MohrCoulomb):
     ) -> dict[str, Floats]:
         """See `InterfaceLaw.evolved`; the width of a crack is its opening less the elastic part."""
         after = super().evolved(history, gap, sliding, stiffness)
-        held = history["bonded"]
+        bonded = history["bonded"]
         damage = np.ones_like(gap)
         columns = (history["damage"], gap, sliding, stiffness)
-        damage[held] = self._damaged(*(column[held] for column in columns))
-        return after | {"damage": damage, "bonded": held & (damage < 1)}
+        damage[bonded] = self._damaged(*(column[bonded] for column in columns))
+        return after | {"damage": damage, "bonded": bonded & (damage < 1)}
 
     def dissipated(self, passage: Passage) -> Floats:
         """See `InterfaceLaw.dissipated`: from the damage at both ends, however long the step."""

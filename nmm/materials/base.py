@@ -189,11 +189,11 @@ class Law(ABC):
         In plane strain it is larger, as the third direction is fixed (Timoshenko and Goodier 1951):
         ``1 + nu`` for an isotropic `stiffness`; an anisotropic law overrides it.
         """
-        held = 0.0
+        restrained = 0.0
         if plane == "strain":
             along, across = self.stiffness(plane)[0, :2]
-            held = float(across / (along + across))
-        return np.array([1 + held, 1 + held, 0.0])
+            restrained = float(across / (along + across))
+        return np.array([1 + restrained, 1 + restrained, 0.0])
 
     def pore_share(self, plane: str) -> Floats:
         """Return the in-plane stress (3,) that a unit pore pressure carries.

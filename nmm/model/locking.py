@@ -34,28 +34,28 @@ def locking(model: "Model") -> str | None:
     # In plane strain the ratio of these stiffnesses is nu / (1 - nu); in plane stress it is nu.
     ratio = float((model.elasticity[:, 0, 1] / model.elasticity[:, 0, 0]).max(initial=0.0))
     poisson = ratio / (1 + ratio)
-    held = model.manifold.reproduction
+    reproduced = model.manifold.reproduction
     if poisson <= FROM:
         return None
-    if held is None:
+    if reproduced is None:
         return _parted(model, poisson)
     if model.projected:
         return _crowded(model, poisson)
-    return _locked(held, poisson)
+    return _locked(reproduced, poisson)
 
 
-def _locked(held: int, poisson: float) -> str | None:
+def _locked(reproduced: int, poisson: float) -> str | None:
     """Volumes that are resisted in every point."""
-    pressure = _figure(PRESSURE[min(held, 4)], poisson)
-    if pressure <= TOLD or held > max(PRESSURE):
+    pressure = _figure(PRESSURE[min(reproduced, 4)], poisson)
+    if pressure <= TOLD or reproduced > max(PRESSURE):
         return None
     names = {1: "covers of degree 0 lock", 2: "covers that hold quadratic fields lock"}
-    name = names.get(held, "covers lock")
+    name = names.get(reproduced, "covers lock")
     off = f"pressures in the stress of elements are about {pressure:.2g} % off"
-    if held in SHORT:
-        off += f" and displacements up to {_figure(SHORT[held], poisson):.2g} % too small"
+    if reproduced in SHORT:
+        off += f" and displacements up to {_figure(SHORT[reproduced], poisson):.2g} % too small"
     better = 'use volumetric = "projected" in [cover]'
-    more = " with degree 1 or 2" if held == 1 else ""
+    more = " with degree 1 or 2" if reproduced == 1 else ""
     return f"{name} in plane strain at a Poisson ratio of {poisson:.7g}: {off}; {better}{more}"
 
 

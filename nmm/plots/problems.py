@@ -34,21 +34,21 @@ class DrawnTractions(NamedTuple):
     normals: Floats
 
 
-def scene_problem(run: "RunData", scene: "Scene", held: Sequence[int], path: PathLike) -> None:
-    """Draw a scene before its run; ``held`` are the numbers of blocks that cannot move."""
+def scene_problem(run: "RunData", scene: "Scene", supported: Sequence[int], path: PathLike) -> None:
+    """Draw a scene before its run; ``supported`` are the numbers of blocks that cannot move."""
     axes = axes_grid(1, 1, 4.0)[0]
     blocks(run, scene=scene, ax=axes, title="")
     polygons = run.topologies[0].elements
-    if held:
+    if supported:
         pattern = {"facecolors": "none", "edgecolors": "#8a8578", "linewidths": 0.0}
-        fill(axes, polygons.take(np.array(held)), hatch="////", **pattern)
+        fill(axes, polygons.take(np.array(supported)), hatch="////", **pattern)
     if scene.gravity is not None:
         _weight(axes)
     _write(axes, path)
 
 
 def solid_problem(
-    cut: "CutCells", loads: Sequence[DrawnTractions], held: Floats, path: PathLike
+    cut: "CutCells", loads: Sequence[DrawnTractions], supported: Floats, path: PathLike
 ) -> None:
     """Draw a meshed body.
 
@@ -58,8 +58,8 @@ def solid_problem(
         Its elements and edges are drawn.
     loads
         To one scale.
-    held
-        (m, 2) points that are held in a direction or in both.
+    supported
+        (m, 2) points that are supported in a direction or in both.
     path
         File to save the figure in.
     """
@@ -68,7 +68,7 @@ def solid_problem(
     width = float(np.clip(10.0 / np.sqrt(len(elements)), 0.1, 0.6))
     fill(axes, elements, facecolors=MATERIAL, edgecolors=NET, linewidths=width)
     draw_outline(axes, cut, crack_width=1.6)
-    axes.plot(*held.T, ".", color=SUPPORT, markersize=3.0, linestyle="none", zorder=4)
+    axes.plot(*supported.T, ".", color=SUPPORT, markersize=3.0, linestyle="none", zorder=4)
     limit_plane(axes, _arrows(axes, loads, extent_of(elements.points)))
     _write(axes, path)
 

@@ -63,7 +63,7 @@ def notched_plate(fracture: str, pulled: str = PULLED, tip: float = 0.3) -> str:
             text.material("m", 1.0, 0.3, None),
             text.box("plate", (0, -0.5), (1, 1), "m"),
             f'[[cracks]]\nname = "notch"\npoints = [[-0.1, 0.0], [{tip}, 0.0]]\n',
-            text.held_edge("floor", ((0, -0.5), (1, -0.5))),
+            text.fixed_edge("floor", ((0, -0.5), (1, -0.5))),
             pulled,
             f"[fracture]\n{fracture}\n",
         ],
@@ -111,7 +111,7 @@ def pulled_bar(
             *materials,
             interface,
             *(text.block(name, made, text.rectangle((a, 0), (b, 1))) for (name, made), a, b in row),
-            text.held_edge("left", ((0, 0), (0, 1))),
+            text.fixed_edge("left", ((0, 0), (0, 1))),
             text.pulled_edge("pull", [[n, 0], [n, 1]], [stress, 0]),
             text.monitor("end", (n, 0.5), blocks[-1][0]),
         ],
@@ -139,14 +139,14 @@ def block_on_slab(poisson: float, supports: Sequence[str], inertia: str = "") ->
 
 def roller_and_pin(height: float = 1.0) -> str:
     """Return tables that hold the left end of a bar from the origin: along it, and its corner."""
-    left = text.held_edge("left", [(0, 0), (0, height)], "x")
-    return left + text.held_point("pin", (0, 0), "y")
+    left = text.fixed_edge("left", [(0, 0), (0, height)], "x")
+    return left + text.fixed_point("pin", (0, 0), "y")
 
 
 def floor_and_pin(width: float = 1.0) -> str:
     """Return tables that hold what stands on the x axis: its foot upright, its corner along it."""
-    base = text.held_edge("base", [(0, 0), (width, 0)], "y")
-    return base + text.held_point("pin", (0, 0), "x")
+    base = text.fixed_edge("base", [(0, 0), (width, 0)], "y")
+    return base + text.fixed_point("pin", (0, 0), "x")
 
 
 def salt_block(law: str, constants: str, loads: Mapping[str, float], head: str = "") -> str:
@@ -191,9 +191,9 @@ def biaxial_test(dilation: float, more: str = "") -> str:
             'poisson_ratio = 0.25\ncohesion = "20 kPa"\nfriction_angle = "30 deg"\n'
             f'dilation_angle = "{dilation} deg"\n',
             text.box("soil", (0, 0), (1, 1), "soil"),
-            text.held_edge("left", ((0, 0), (0, 1)), "x"),
-            text.held_edge("base", ((0, 0), (1, 0)), "y"),
-            text.held_edge("plate", ((0, 1), (1, 1)), "y") + "displacement = [0, -0.02]\n",
+            text.fixed_edge("left", ((0, 0), (0, 1)), "x"),
+            text.fixed_edge("base", ((0, 0), (1, 0)), "y"),
+            text.fixed_edge("plate", ((0, 1), (1, 1)), "y") + "displacement = [0, -0.02]\n",
             text.pulled_edge("side", [[1, 0], [1, 1]], [-100e3, 0]),
             text.monitor("side", (1, 0.5), "soil"),
             text.monitor("top", (0.5, 1), "soil"),
@@ -223,7 +223,7 @@ def column_on_ground(gravity: bool = True, reactions: bool = True, incoming: boo
             "[inertia]\n",
             "[records.wave]\nvalues = [0, 0.1, 0.3, 0.1, 0, 0, 0, 0, 0]\nstep = 0.01\n"
             'quantity = "velocity"\n',
-            text.held_edge("bottom", ((0, 0), (2, 0))),
+            text.fixed_edge("bottom", ((0, 0), (2, 0))),
             '[[viscous_boundaries]]\nname = "base"\nsegment = [[0, 0], [2, 0]]\n'
             f"reactions = {str(reactions).lower()}\n{wave}",
         ],
@@ -243,7 +243,7 @@ def wet_pile(aperture: str = "0.2 mm") -> str:
             text.interface("joint", 40.0, more={"normal_stiffness": 1e10, "shear_stiffness": 1e10}),
             f'aperture = "{aperture}"\nresidual_aperture = "0.01 mm"\n',
             *(text.box(name, *place) for name, place in blocks.items()),
-            text.held("base"),
+            text.fixed_block("base"),
             '[[joint_heads]]\nname = "in"\npoint = [0, 0]\nhead = 1.5\n',
         ],
     )
@@ -275,7 +275,7 @@ def block_on_incline(slope: float, friction: float, cohesion: float = 0.0, searc
             text.interface("joint", friction, more={"cohesion": cohesion}),
             text.block("slope", "rock", ground),
             text.block("block", "rock", np.array([2 * along, 3 * along, *above])),
-            text.held("slope"),
+            text.fixed_block("slope"),
             f"[strength_reduction]\n{search}\n",
         ],
     )

@@ -53,17 +53,17 @@ def interface(
     return f'[interfaces.{name}]\nfriction_angle = "{friction!r} deg"\n{pair}{rest}'
 
 
-def held(name: str) -> str:
-    """Table of a support that holds a whole block."""
+def fixed_block(name: str) -> str:
+    """Table of a support that fixes a whole block."""
     return f'[[supports]]\nname = "hold {name}"\nblock = "{name}"\nfix = ["x", "y"]\n'
 
 
-def held_edge(name: str, segment: Sequence[Sequence[float]] | Floats, axes: str = "xy") -> str:
+def fixed_edge(name: str, segment: Sequence[Sequence[float]] | Floats, axes: str = "xy") -> str:
     """Table of a support of a straight edge, along some axes."""
     return f'[[supports]]\nname = "{name}"\nsegment = {_places(segment)}\nfix = {list(axes)}\n'
 
 
-def held_point(name: str, point: Sequence[float] | Floats, axes: str = "xy") -> str:
+def fixed_point(name: str, point: Sequence[float] | Floats, axes: str = "xy") -> str:
     """Table of a support of a point, along some axes."""
     return f'[[supports]]\nname = "{name}"\npoint = {_places(point)}\nfix = {list(axes)}\n'
 
@@ -110,7 +110,7 @@ def box(name: str, low: Corner, size: Corner, material: str = "rock") -> str:
 
 def floor(friction: float = 30.0) -> list[str]:
     """Tables of a held floor of rock, 4 m wide with its top at y = 0, and of all contacts."""
-    return [interface("contact", friction), box("floor", (-2, -1), (4, 1)), held("floor")]
+    return [interface("contact", friction), box("floor", (-2, -1), (4, 1)), fixed_block("floor")]
 
 
 def weighty(step: float | None = None, duration: float = 0.2, penalty: float = 100.0) -> str:

@@ -31,7 +31,7 @@ class Discs(MovingLeastSquares):
 
 # A block that slides and rests on a slab of two glued materials: mortar contact under the exact
 # enforcement, supports and volumes of patches all ask what cover there is.
-SCENE = block_on_slab(0.45, [text.held_edge("below", ((0, 0), (2, 0)))])
+SCENE = block_on_slab(0.45, [text.fixed_edge("below", ((0, 0), (2, 0)))])
 NAMES = {"triangles": Hats, "quads": Bilinear, "bspline": Smooth, "mls": Discs}
 
 

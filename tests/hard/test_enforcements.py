@@ -127,8 +127,8 @@ def test_a_corner_that_falls_on_a_joint_between_blocks_stays_there(form, aside):
         text.interface("contact", 30.0),
         text.box("left", (-2, -1), (2, 1)),
         text.box("right", (0, -1), (2, 1)),
-        text.held("left"),
-        text.held("right"),
+        text.fixed_block("left"),
+        text.fixed_block("right"),
         text.block("diamond", "rock", DIAMOND + np.array([aside, 0.005])),
         text.monitor("middle", (aside, 0.6), "diamond"),
     ]
@@ -146,7 +146,7 @@ def test_a_corner_that_falls_on_a_corner_tips_over_it(form, tipped):
     tables = [
         text.interface("contact", 0.0),
         text.block("peak", "rock", peak),
-        text.held("peak"),
+        text.fixed_block("peak"),
         text.block("diamond", "rock", DIAMOND + np.array([0.0, 0.05])),
         text.monitor("centre", (0.0, 0.05 + np.sqrt(0.5)), "diamond"),
     ]
@@ -201,7 +201,7 @@ def test_a_bond_pulled_off_its_middle_fails_by_the_rule_of_its_springs(form, joi
                 text.interface("bond", 30.0, more=bond | springs),
                 text.box("base", (0, -1), (1, 1)),
                 text.box("top", (0, 0), (1, 1)),
-                text.held("base"),
+                text.fixed_block("base"),
                 '[[loads]]\nname = "pull"\nkind = "point"\npoint = [0.7, 1.0]\nforce = [0, 1e5]\n',
             ],
         )

@@ -268,7 +268,7 @@ def test_a_second_run_into_a_folder_is_refused_while_the_first_writes(tmp_path, 
     first.row({"step": 1})
     script = "import sys; from nmm.results import RunFolder; RunFolder(sys.argv[1])"
     other = process(script, tmp_path / "run")
-    assert f"held by process {os.getpid()} on " in other.stderr
+    assert f"in use by process {os.getpid()} on " in other.stderr
     with pytest.raises(StorageError, match="choose another folder"):
         RunFolder(tmp_path / "run")
     assert read_run(tmp_path / "run").summary.sentence.startswith("the run has not ended: process")

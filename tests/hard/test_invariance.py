@@ -37,7 +37,7 @@ def on_slope(
             text.material("rock", modulus=20e9 * scale),
             text.interface("slope", friction),
             *(blocks[number] for number in order),
-            text.held("base"),
+            text.fixed_block("base"),
             text.monitor("toe", block[0], "block"),
         ],
     )
@@ -61,7 +61,7 @@ def held_weight(shift):
             text.interface("slope", 40.0),
             text.block("base", "rock", base),
             text.block("block", "rock", block),
-            text.held("base"),
+            text.fixed_block("base"),
         ],
     )
     found = run(parse_scene(scene))
@@ -168,7 +168,7 @@ def dropped(shift, cover="block"):
             text.interface("floor", 30.0),
             text.block("base", "rock", base),
             text.block("block", "rock", block + np.array([0, 2.0**-6])),
-            text.held("base"),
+            text.fixed_block("base"),
             text.monitor("toe", block[0] + np.array([0, 2.0**-6]), "block"),
         ],
     )
@@ -203,7 +203,7 @@ def test_faults_far_from_the_origin_name_places_of_the_scene():
     ]
     interface = text.interface("only", 30.0, ("rock", "rock"))
     scene = text.scene(
-        text.weighty(), [text.material("rock"), clay, interface, *blocks, text.held("rock")]
+        text.weighty(), [text.material("rock"), clay, interface, *blocks, text.fixed_block("rock")]
     )
     with pytest.raises(SceneError, match=r"\(100000[01], 1\)"):
         run(parse_scene(scene))

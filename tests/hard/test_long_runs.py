@@ -94,7 +94,14 @@ def chain(steps):
             [
                 text.material("rock", modulus=1e9),
                 text.interface("contact", 10.0),
-                *(floor, foot, *blocks, text.held("floor"), text.held("foot"), *monitors),
+                *(
+                    floor,
+                    foot,
+                    *blocks,
+                    text.fixed_block("floor"),
+                    text.fixed_block("foot"),
+                    *monitors,
+                ),
             ],
         )
     )
@@ -174,7 +181,7 @@ def sliding(steps, formulation):
                 text.material("rock", modulus=1e9),
                 text.interface("contact", 20.0),
                 base,
-                text.held("base"),
+                text.fixed_block("base"),
                 text.box("block", (0, 0), (1, 0.5)),
                 f'[[initial_velocities]]\nblock = "block"\nvelocity = [{SPEED!r}, 0]\n',
                 text.monitor("middle", (0.5, 0.25), "block"),

@@ -30,7 +30,7 @@ def test_a_smooth_wedge_presses_both_faces_of_a_crack_by_its_weight_over_its_ang
 ):
     blocks = wedge_in_crack(half_angle)
     tables = [text.material("rock"), text.interface("smooth", 0.0)]
-    tables += [blocks[i] for i in order] + [text.held("left"), text.held("right")]
+    tables += [blocks[i] for i in order] + [text.fixed_block("left"), text.fixed_block("right")]
     found = run(parse_scene(text.scene(text.weighty(), tables)))
     assert found.summary.status == "converged", found.summary.sentence
     weight = 2600 * text.G * (HIGH**2 - LOW**2) * np.tan(half_angle)

@@ -49,8 +49,8 @@ def test_a_corner_that_falls_on_a_joint_between_blocks_stays_there(aside):
         text.interface("contact", 30.0),
         text.box("left", (-2, -1), (2, 1)),
         text.box("right", (0, -1), (2, 1)),
-        text.held("left"),
-        text.held("right"),
+        text.fixed_block("left"),
+        text.fixed_block("right"),
         text.block("diamond", "rock", diamond),
         text.monitor("middle", (aside, 0.6), "diamond"),
     ]
@@ -70,7 +70,7 @@ def test_a_corner_that_falls_on_a_corner_tips_over_it_and_gains_no_energy(aside,
     tables = [
         text.interface("contact", 0.0),
         text.block("peak", "rock", peak),
-        text.held("peak"),
+        text.fixed_block("peak"),
         text.block("diamond", "rock", diamond),
         text.monitor("centre", (aside, 0.05 + np.sqrt(0.5)), "diamond"),
     ]
@@ -90,7 +90,7 @@ def shot(thickness, turn, integrator="shi"):
     tables = [
         text.interface("contact", 20.0),
         text.box("plate", (-1, -thickness), (2, thickness)),
-        text.held("plate"),
+        text.fixed_block("plate"),
         text.block("block", "rock", shape),
         '[[initial_velocities]]\nblock = "block"\nvelocity = [0, -100]\n',
         text.monitor("middle", (0.3, 0.5), "block"),

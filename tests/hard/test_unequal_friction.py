@@ -44,7 +44,7 @@ def test_a_ladder_is_drawn_from_its_wall_at_the_load_at_which_both_its_ends_slid
         *faces(("floor", "wall", "bar"), (FLOOR, WALL)),
         text.block("floor", "floor", text.rectangle((0.5, -1), (5, 0)) + place),
         text.block("wall", "wall", text.rectangle((-1, 0), (0, 5)) + place),
-        *map(text.held, ("floor", "wall")),
+        *map(text.fixed_block, ("floor", "wall")),
         text.block("bar", "bar", bar + place),
         f'[[loads]]\nname = "pull"\nkind = "point"\npoint = {(foot + place).tolist()}\n'
         'block = "bar"\nforce = [1000, 0]\n',

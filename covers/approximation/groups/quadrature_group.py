@@ -12,7 +12,7 @@ from integration.arrays import Floats, Ints
 from integration.polygons import Polygons
 from integration.rules import PointRule
 
-# Points whose functions are held in memory at once.
+# Points whose functions are kept in memory at once.
 FUNCTIONS_AT_ONCE = 40_000
 
 

@@ -62,8 +62,8 @@ def carriers(cut: CutCells, patch_centre: Floats, enrichments: Sequence[Enrichme
     n, chosen = cut.n_covers, _chosen(cut, patch_centre, enrichments)
     places, carried = [], np.ones(len(enrichments), dtype=bool)
     for number, item in enumerate(enrichments):  # a handful of singular points
-        held = np.append(chosen[number], False)[cut.covers]
-        element, slot = np.nonzero(held)
+        carrying = np.append(chosen[number], False)[cut.covers]
+        element, slot = np.nonzero(carrying)
         cover = cut.covers[element, slot]
         found = branches(cut, item, element, cover)
         if found.torn.any():

@@ -72,16 +72,16 @@ def _parted(
     polygons: Polygons, which: Ints, near: Bools, away: Floats, place: Floats
 ) -> tuple[Polygons, Ints, Ints]:
     """Parts of elements near singular points, and the element and the point of each part."""
-    held = np.where(near, which, -1)
+    nearby = np.where(near, which, -1)
     closest = np.take_along_axis(
         which, np.argmin(np.where(near, away, np.inf), axis=1)[:, None], axis=1
     )[:, 0]
-    several = ((held != closest[:, None]) & near).any(axis=1)
+    several = ((nearby != closest[:, None]) & near).any(axis=1)
     alone = np.flatnonzero(near.any(axis=1) & ~several)
     parts, owners, points = [polygons.take(alone)], [alone], [closest[alone]]
     for element in np.flatnonzero(several):  # the few elements between two tips
         shape = polygons.take([element]).to_shapely()[0]
-        about = np.unique(held[element][near[element]])
+        about = np.unique(nearby[element][near[element]])
         for point in about:
             part = _nearest(shape, place[point], place[about[about != point]])
             found = [one for one in shapely.get_parts(part) if one.geom_type == "Polygon"]

@@ -153,8 +153,8 @@ def _regions_of_loops(
     known, region = _longest_claims(part[half.loop[claim]], left[claim], length[claim])
     of_part = np.full(half.n_loops, -2, dtype=np.int64)
     of_part[known] = region
-    held = np.flatnonzero((of_part[part] == -2) & (cell >= 0))
-    of_part[part[held]] = cell_region[cell[held]]
+    inside = np.flatnonzero((of_part[part] == -2) & (cell >= 0))
+    of_part[part[inside]] = cell_region[cell[inside]]
     return np.maximum(of_part[part], -1)
 
 

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 POOR = {0: 0.05, 1: 1e-3, 2: 1e-3, 3: 1e-3}
 # Degree of the quadrature of shares.
 ORDER = 8
-# Points whose kernels are held in memory at once.
+# Points whose kernels are kept in memory at once.
 KERNELS_AT_ONCE = 20_000
 
 

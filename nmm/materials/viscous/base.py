@@ -92,11 +92,11 @@ class Viscous(Elastic):
         kept = old * np.exp(-step / times)[:, None]
         known = 2 * spring * before + kept.sum(axis=1) - 2 * stiff * before
         share = _across(stiff, self.bulk, plane)
-        held: float | Floats = 0.0
+        swelling: float | Floats = 0.0
         if "swelling" in history:
             strain = strain - history["swelling"] * MEAN[:3]
-            held = 0.0 if plane == "stress" else history["swelling"][:, 0]
-        across = share * (strain[:, 0] + strain[:, 1]) - held
+            swelling = 0.0 if plane == "stress" else history["swelling"][:, 0]
+        across = share * (strain[:, 0] + strain[:, 1]) - swelling
         if plane == "stress":
             across = across - known[:, 3] / (4 / 3 * stiff + self.bulk)
         whole = np.column_stack([strain, across])
@@ -118,8 +118,8 @@ class Viscous(Elastic):
         mean = (stress[:, 0] + stress[:, 1] + history["stress_zz"][:, 0]) / 3
         shape = (TWICE * history["strain_deviator"] ** 2).sum(axis=1)
         branch = history["branch_stress"].reshape(len(stress), len(times), 4)
-        held = (TWICE * branch**2).sum(axis=2) @ (1 / 4 / moduli)
-        return np.asarray(mean**2 / 2 / self.bulk + spring * shape + held)
+        delayed = (TWICE * branch**2).sum(axis=2) @ (1 / 4 / moduli)
+        return np.asarray(mean**2 / 2 / self.bulk + spring * shape + delayed)
 
 
 def above_zero(**constants: float) -> None:

@@ -1,4 +1,4 @@
-"""The checkpoint of a run folder: what a run goes on from, and what the folder held then."""
+"""The checkpoint of a run folder: what a run goes on from, and what the folder contained then."""
 
 import json
 from collections.abc import Mapping

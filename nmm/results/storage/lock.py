@@ -60,7 +60,7 @@ class FolderLock:
             here = socket.gethostname()
             if self.stale is not None and self.stale.host != here:
                 self._file.close()
-                raise StorageError(_held(path, self.stale, "cannot be asked from here"))
+                raise StorageError(_in_use(path, self.stale, "cannot be asked from here"))
             me = Owner(os.getpid(), here, time.strftime("%Y-%m-%d %H:%M:%S"))
             self._file.seek(0)
             self._file.truncate()
@@ -101,10 +101,10 @@ def _open_and_lock(path: Path) -> TextIOWrapper:
             if _same_file(file, path):
                 return file
         else:
-            held = _parsed(file.read())
+            other = _parsed(file.read())
             time.sleep(PAUSE)
         file.close()
-    raise StorageError(_held(path, held, "is still writing"))
+    raise StorageError(_in_use(path, other, "is still writing"))
 
 
 def _locked(file: TextIOWrapper, kind: int) -> bool:
@@ -131,9 +131,9 @@ def _parsed(text: str) -> Owner | None:
         return None
 
 
-def _held(path: Path, held: Owner | None, why: str) -> str:
-    who = held or "another process"
+def _in_use(path: Path, other: Owner | None, why: str) -> str:
+    who = other or "another process"
     return (
-        f"{path.parent}: held by {who}, which {why}: expected a folder of its own for each run: "
+        f"{path.parent}: in use by {who}, which {why}: expected a folder of its own for each run: "
         f"choose another folder, or delete {path} once that run has ended"
     )

@@ -174,9 +174,9 @@ class _Reader:
                 f"{self.folder}: its process ended while it was replacing an earlier run: expected "
                 "the run that was asked for: run the scene again"
             )
-        if found.status != RUNNING or (held := owner(self.folder / files.LOCK)) is None:
+        if found.status != RUNNING or (writer := owner(self.folder / files.LOCK)) is None:
             return _stopped(found, history) if found.status == RUNNING else found
-        return replace(found, sentence=f"the run has not ended: {held} writes to it")
+        return replace(found, sentence=f"the run has not ended: {writer} writes to it")
 
     def compare(self, history: dict[str, Floats], summary: Summary) -> None:
         """Tell of a history that holds other steps than the run had when it ended."""

@@ -49,8 +49,8 @@ def no_event(at: OnPath) -> RunVerdict:
     why = "no load brings another bond to its limit"
     if fell(at):
         return _failure(at, "a limit point was passed", why)
-    held = at.state.load_factor
-    sentence = f"equilibrium up to load factor {held:.6g}, {at.events} events on: {why}"
+    reached = at.state.load_factor
+    sentence = f"equilibrium up to load factor {reached:.6g}, {at.events} events on: {why}"
     return RunVerdict(CONVERGED, sentence)
 
 

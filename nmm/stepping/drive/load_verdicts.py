@@ -42,35 +42,35 @@ def no_equilibrium(
     beyond: Beyond,
 ) -> RunVerdict:
     """Return the verdict on a load that was not solved: of the structure, if that is shown."""
-    held, reason = at.state.load_factor, found.attempt.sentence
+    reached, reason = at.state.load_factor, found.attempt.sentence
 
     def proven() -> str | None:
         return evidence(stepper, at.state, factor, found, names)
 
     def passed() -> str | None:
-        limit = beyond(at.state, factor) if schedule.until_failure and held else None
+        limit = beyond(at.state, factor) if schedule.until_failure and reached else None
         return None if limit is None else limit.sentence
 
     # The static theorem knows bonds as they were: of those that break the path tells sooner.
     solved = found.attempt.solved
     shown = passed() or proven() if solved and solved.broken else proven() or passed()
-    where = f"at load factor {held:.6g} after {at.changed}"
+    where = f"at load factor {reached:.6g} after {at.changed}"
     if not at.changed:
-        where = f"between load factors {held:.6g} and {factor:.6g}"
-    above = at.increment if at.changed else factor - held
-    tolerance = above / held if held else None
+        where = f"between load factors {reached:.6g} and {factor:.6g}"
+    above = at.increment if at.changed else factor - reached
+    tolerance = above / reached if reached else None
     if shown is None:
         sentence = (
             f"no equilibrium was found {where}: {reason}; "
             "nothing shows that the structure is at fault: it may carry more; try another "
             "enforcement or a larger loading.tolerance"
         )
-        return RunVerdict(FAILED, sentence, held, tolerance)
+        return RunVerdict(FAILED, sentence, reached, tolerance)
     if not schedule.until_failure or tolerance is None:
-        return RunVerdict(COLLAPSED, f"no equilibrium {where}: {shown}", held)
+        return RunVerdict(COLLAPSED, f"no equilibrium {where}: {shown}", reached)
     none = f"none after {at.changed}" if at.changed else f"none at {factor:.6g}"
     sentence = (
-        f"in equilibrium up to load factor {held:.6g}, {none} "
+        f"in equilibrium up to load factor {reached:.6g}, {none} "
         f"({100 * tolerance:.2g} % above): {shown}"
     )
-    return RunVerdict(FAILURE, sentence, held, tolerance)
+    return RunVerdict(FAILURE, sentence, reached, tolerance)

@@ -40,7 +40,7 @@ def standing(plan: "Plan", before: State, after: State) -> float:
     It is what holds a start that is not in equilibrium and is withdrawn evenly in the first step.
     What swells in that step has grown from nothing.
     """
-    held = replace(after, time=before.time, load_factor=before.load_factor, history=before.history)
-    stress = sum(plan.energy(name, before) - plan.energy(name, held) for name in STRAINING)
-    stress += plan.received_stress_energy(before) - plan.received_stress_energy(held)
-    return (plan.work(before, held) + stress) / 2
+    moved = replace(after, time=before.time, load_factor=before.load_factor, history=before.history)
+    stress = sum(plan.energy(name, before) - plan.energy(name, moved) for name in STRAINING)
+    stress += plan.received_stress_energy(before) - plan.received_stress_energy(moved)
+    return (plan.work(before, moved) + stress) / 2

@@ -84,9 +84,9 @@ class Recorder:
         row = self._row(before, attempt, contacts)
         declared, after = self.declared, attempt.state
         self.sink.row(row | declared.row(self.stepper.plan, lambda: self.view(after, contacts)))
-        held = [f"{count} {name}" for name, count in self.totals.counts.items() if count]
+        counted = [f"{count} {name}" for name, count in self.totals.counts.items() if count]
         noun = "pass" if attempt.passes == 1 else "passes"
-        return f"{attempt.passes} {noun}, contacts: {', '.join(held)}" if held else ""
+        return f"{attempt.passes} {noun}, contacts: {', '.join(counted)}" if counted else ""
 
     def _book(self, before: State, attempt: Attempt, stands: State | None, anew: bool) -> None:
         """Count an accepted step and what it did to the energies."""

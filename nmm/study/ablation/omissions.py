@@ -105,8 +105,8 @@ def _without(scene: Tables, keys: tuple[str, ...]) -> Tables:
     for listed in (key for tables in LISTS.values() for key in tables if key in keys):
         found = _unlisted(found, listed, {entry["name"] for entry in scene.get(listed, ())})
     if "inertia" in keys and "supports" in found:  # ground that records move stands still
-        held = [{key: one[key] for key in one if key != "motion"} for one in found["supports"]]
-        found["supports"] = held
+        supported = [{key: one[key] for key in one if key != "motion"} for one in found["supports"]]
+        found["supports"] = supported
     return found
 
 
@@ -155,8 +155,8 @@ def _without_dowels(scene: Tables, formulation: Tables) -> Changed:
 def _released(scene: Tables, formulation: Tables) -> Changed:
     """With all that removed blocks exerted released at once."""
     shares = [stage.pop("release", None) for stage in scene.get("stages", ())]
-    held = any(share is not None for share in shares)
-    return (scene, formulation) if held else None
+    named = any(share is not None for share in shares)
+    return (scene, formulation) if named else None
 
 
 def _unchanged(scene: Tables, formulation: Tables) -> Changed:

@@ -74,12 +74,12 @@ def wall(number: int, steps: int) -> Scene:
         for i in range(number)
         for j in range(number)
     ]
-    held = [
+    supports = [
         f'[[supports]]\nname = "h{i}"\nblock = "b{i}-0"\nfix = ["x", "y"]\n' for i in range(number)
     ]
     head = f'title = "wall"\nplane = "stress"\nduration = {steps / 1000}\n'
     head += "[gravity]\n[inertia]\n[contact]\n"
-    return parse_scene(head + ROCK + JOINT + "".join(blocks + held), "calibration")
+    return parse_scene(head + ROCK + JOINT + "".join(blocks + supports), "calibration")
 
 
 def measured(kinds: Sequence[Kind], progress: Progress | None = None) -> Iterator[MeasuredRun]:

@@ -145,8 +145,8 @@ def fit(measured: Sequence[MeasuredRun], machine: str) -> CostModel:
     largest = {kind: max(one.size.unknowns for one in many) for kind, many in kinds.items()}
     model = CostModel(coefficients, 1.0, 1.0, largest, machine)
     seconds = [factor(model.seconds(one.size), one.preparing + one.running) for one in measured]
-    held = [factor(model.bytes(one.size), float(one.memory)) for one in measured if one.memory]
-    return replace(model, spread_seconds=max(seconds), spread_memory=max(held, default=1.0))
+    factors = [factor(model.bytes(one.size), float(one.memory)) for one in measured if one.memory]
+    return replace(model, spread_seconds=max(seconds), spread_memory=max(factors, default=1.0))
 
 
 def _coefficients(kind: str, measured: Sequence[MeasuredRun]) -> Coefficients:

@@ -88,8 +88,8 @@ SCENE = text.scene(
         text.material("rock"),
         text.box("low", (0, 0), (1, 1)),
         text.box("top", (0, 1), (1, 1)),
-        text.held("low"),
-        text.held("top"),
+        text.fixed_block("low"),
+        text.fixed_block("top"),
     ],
 )
 

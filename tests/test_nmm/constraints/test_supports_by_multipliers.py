@@ -57,8 +57,8 @@ def test_polygons_held_by_multipliers_pass_the_patch_test(
 
 
 HALVES = [
-    text.held_edge("left half", ((0, 0), (1, 0))),
-    text.held_edge("right half", ((1, 0), (2, 0))),
+    text.fixed_edge("left half", ((0, 0), (1, 0))),
+    text.fixed_edge("right half", ((1, 0), (2, 0))),
 ]
 BASE = block_on_slab(0.2, HALVES)
 COVER = '[cover]\ntype = "triangles"\nsize = 0.3\ndegree = 1\nangle = 0.3\n'

@@ -129,7 +129,7 @@ def test_a_held_body_stays_on_one_solution_a_step():
 
 def test_supports_of_bodies_at_rest_are_lines():
     """Steps of supported scenes without anything that bends are linear: they are solved at once."""
-    held = text.held("block")
+    held = text.fixed_block("block")
     tables = [text.material("rock", 1e9, 0.2), text.box("block", (0, 0), (1, 1)), held]
     scene = parse_scene(text.scene('plane = "stress"\n', tables))
     assert not prepare(scene, nmm.Formulation()).stepper.plan.bent

@@ -21,8 +21,8 @@ def plate(cover: str, half: float = 1.0, hole: str = "", growth: str = "") -> st
         crack("c", [[-0.5, 0.0], [0.5, 0.0]]),
         text.pulled_edge("up", top, [0.0, 1.0]),
         text.pulled_edge("down", bottom, [0.0, -1.0]),
-        text.held_point("one", [-half, -half]),
-        text.held_point("other", [half, -half], "y"),
+        text.fixed_point("one", [-half, -half]),
+        text.fixed_point("other", [half, -half], "y"),
         STILL + growth,
         cover,
     ]

@@ -36,8 +36,8 @@ def beam() -> str:
             text.box("beam", (-2.2, 0), (4.4, 1), "m"),
             crack("notch", [[-1.0, -0.1], [-1.0, 0.3]]),
             force("push", [0.0, 1.0], -1.0),
-            text.held_point("left", [-2.0, 0.0]),
-            text.held_point("right", [2.0, 0.0], "y"),
+            text.fixed_point("left", [-2.0, 0.0]),
+            text.fixed_point("right", [2.0, 0.0], "y"),
             f"[fracture]\n{RULE}\n",
         ],
     )
@@ -54,8 +54,8 @@ def two_cracks() -> str:
             crack("right", [[1.1, -0.15], [0.75, -0.15]]),
             text.pulled_edge("up", [[0.0, 1.0], [1.0, 1.0]], [0.0, 1.0]),
             text.pulled_edge("down", [[0.0, -1.0], [1.0, -1.0]], [0.0, -1.0]),
-            text.held_point("lower", [1.0, -1.0]),
-            text.held_point("other", [0.0, -1.0], "y"),
+            text.fixed_point("lower", [1.0, -1.0]),
+            text.fixed_point("other", [0.0, -1.0], "y"),
             f"[fracture]\ntogether = 0.05\n{RULE}\n",
         ],
     )

@@ -40,9 +40,9 @@ def test_ten_tips_of_a_row_of_cracks_have_its_intensity() -> None:
             *row,
             text.pulled_edge("up", [[0.0, 1.5], [5.0, 1.5]], [0.0, 1.0]),
             text.pulled_edge("down", [[0.0, -1.5], [5.0, -1.5]], [0.0, -1.0]),
-            text.held_edge("left", [[0.0, -1.5], [0.0, 1.5]], "x"),
-            text.held_edge("right", [[5.0, -1.5], [5.0, 1.5]], "x"),
-            text.held_point("foot", [0.0, -1.5], "y"),
+            text.fixed_edge("left", [[0.0, -1.5], [0.0, 1.5]], "x"),
+            text.fixed_edge("right", [[5.0, -1.5], [5.0, 1.5]], "x"),
+            text.fixed_point("foot", [0.0, -1.5], "y"),
             net(0.1, 11.0),
         ]
     )
@@ -60,7 +60,7 @@ def test_four_parallel_cracks_free_what_a_strip_stores() -> None:
             *cracks,
             driven("bottom", 0, 6, '"y"', 0),
             driven("top", 4, 6, '"y"', 4),
-            text.held_point("end", [6.0, 0.0], "x"),
+            text.fixed_point("end", [6.0, 0.0], "x"),
             net(0.15, 11.0),
         ]
     )

@@ -6,7 +6,7 @@ import pytest
 import nmm
 from nmm.errors import SceneError
 from nmm.testing.scenes import biaxial_test
-from nmm.verification.text import held_edge
+from nmm.verification.text import fixed_edge
 
 ACROSS = "across = -1e5"
 SMALL = '[formulation.loading]\nincrement = 0.05\n[formulation.rotation]\nupdate = "small"\n'
@@ -39,7 +39,7 @@ def test_it_is_refused_where_nothing_would_know_of_it(plane, law):
     text = f'plane = "{plane}"\nduration = 1.0\n' if plane == "strain" else 'plane = "stress"\n'
     text += f"[materials.salt]\n{law}\nyoung_modulus = 1e10\npoisson_ratio = 0.25\n"
     text += '[[blocks]]\nname = "b"\nmaterial = "salt"\nvertices = [[0, 0], [1, 0], [1, 1]]\n'
-    text += held_edge("foot", ((0, 0), (1, 0)))
+    text += fixed_edge("foot", ((0, 0), (1, 0)))
     text += f'[[initial_stresses]]\nblock = "all"\nstress = [-1e5, -1e5, 0]\n{ACROSS}\n'
     with pytest.raises(SceneError, match=r"initial_stresses.*across: .*remove it"):
         nmm.run(nmm.parse_scene(text, "salt.toml"))

@@ -429,7 +429,7 @@ def test_a_quantity_that_is_drawn_in_place_of_stress_has_one_picture_of_its_name
     tables = [
         text.material("rock", density=None) + "conductivity = 2.0\nthermal_expansion = 1e-5\n",
         text.box("block", (0, 0), (2, 1)),
-        text.held_edge("left", [(0, 0), (0, 1)]),
+        text.fixed_edge("left", [(0, 0), (0, 1)]),
         '[heat]\n[[temperatures]]\nname = "warm"\nblock = "block"\ntemperature = 10.0\n',
     ]
     run = nmm.run(nmm.parse_scene(text.scene('plane = "stress"\n', tables)))

@@ -87,7 +87,7 @@ SWAYING = text.scene(
         text.material("a", 1e6, 0.0, 2000.0),
         text.box("b", (0, 0), (1, 1), "a"),
         "[records.quake]\nsamples = [[0, 0], [0.01, 1]]\n",
-        text.held_edge("base", [(0, 0), (1, 0)]) + 'motion = { x = "quake" }\n',
+        text.fixed_edge("base", [(0, 0), (1, 0)]) + 'motion = { x = "quake" }\n',
         '[[dashpots]]\nname = "d"\npoints = [[1, 1], [2, 1]]\n'
         'blocks = ["b", "ground"]\nviscosity = 1e3\n',
         '[[initial_velocities]]\nblock = "b"\nvelocity = [0.1, 0]',

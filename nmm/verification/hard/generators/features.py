@@ -103,7 +103,7 @@ def _features() -> Iterator[Feature]:
     soil = (
         texts.rock(texts.SOIL)
         + texts.box("b", 0, 0, 4, 4)
-        + texts.held_edge([[0, 0], [4, 0]], "b")
+        + texts.fixed_edge([[0, 0], [4, 0]], "b")
         + texts.WEIGHT
         + texts.FACTOR
     )

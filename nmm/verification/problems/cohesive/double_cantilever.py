@@ -63,8 +63,8 @@ def beam(length: float, law: str, net: str, drive: str = "", own: str = "") -> s
             text.interface("crack", 30.0, more=bond) + f'law = "{law}_softening"\n',
             text.block("beam", "concrete", np.array(outline)),
             crack("plane", [[NOTCH, 0.0], [length + 0.01, 0.0]]) + "bonded = true\n",
-            text.held_point("one", [length, -ARM]),
-            text.held_point("other", [length, ARM], "x"),
+            text.fixed_point("one", [length, -ARM]),
+            text.fixed_point("other", [length, ARM], "x"),
             *(
                 text.pulled_edge(f"end {number}", [[0.0, low], [0.0, high]], [way * 1e6, 0.0]) + own
                 for number, (low, high, way) in enumerate(ends)

@@ -60,8 +60,8 @@ class CohesiveBeam(SceneCase):
                 text.block("beam", "concrete", text.rectangle((-0.2125, 0), (0.2125, self.height))),
                 crack("notch", [[0.0, -0.01], [0.0, self.notch]]),
                 grows if self.angle is not None else drawn,
-                text.held_point("pin", [-0.2, 0.0]),
-                text.held_point("roller", [0.2, 0.0], "y"),
+                text.fixed_point("pin", [-0.2, 0.0]),
+                text.fixed_point("roller", [0.2, 0.0], "y"),
                 text.pulled_edge(
                     "push", [[-0.005, self.height], [0.005, self.height]], [0, -1000.0]
                 ),

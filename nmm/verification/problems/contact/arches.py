@@ -49,8 +49,8 @@ class ThreeHinges(SceneCase):
                 text.box("east", (span, -1), (1, depth + 2)),
                 text.box("left", (-span, 0), (span, depth)),
                 text.box("right", (0, 0), (span, depth)),
-                text.held("west"),
-                text.held("east"),
+                text.fixed_block("west"),
+                text.fixed_block("east"),
                 text.monitor("crown", (0, depth), "left"),
             ],
         )
@@ -85,7 +85,7 @@ def voussoirs(inner: float, outer: float, embrace: float, number: int) -> list[s
         name = {0: "east", number + 1: "west"}.get(k, f"stone {k}")
         corners = np.array([inside[k], outside[k], outside[k + 1], inside[k + 1]])
         tables.append(text.block(name, "rock", corners))
-    return [*tables, text.held("east"), text.held("west")]
+    return [*tables, text.fixed_block("east"), text.fixed_block("west")]
 
 
 @dataclass(frozen=True)

@@ -103,5 +103,5 @@ def _bonded_squares(strength: float, modulus: float, density: float | None) -> l
         text.interface("bond", 30.0, more=law),
         text.block("lower", "rock", text.rectangle((0, -1), (1, 0))),
         text.block("upper", "rock", text.rectangle((0, 0), (1, 1))),
-        text.held("lower"),
+        text.fixed_block("lower"),
     ]

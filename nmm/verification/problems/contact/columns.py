@@ -79,7 +79,7 @@ class LeaningColumns(SceneCase):
                 text.material("rock", modulus=1e11, poisson=0.0, density=self.weight / G),
                 text.interface("joint", self.friction),
                 text.block("base", "rock", base),
-                text.held("base"),
+                text.fixed_block("base"),
                 *(text.block(f"column {n + 1}", "rock", one) for n, one in enumerate(columns)),
                 text.monitor("top", columns[9][3], "column 10"),
             ],

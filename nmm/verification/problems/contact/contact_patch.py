@@ -52,7 +52,7 @@ class ContactPatch(SceneCase):
                 text.interface("smooth", 0.0),
                 text.block("lower", "soft", text.rectangle((-1.5, -1), (1.5, 0))),
                 text.block("upper", "soft", text.rectangle((-0.5, 0), (0.5, 1))),
-                text.held_edge("foot", [[-1.5, -1], [1.5, -1]], "y"),
+                text.fixed_edge("foot", [[-1.5, -1], [1.5, -1]], "y"),
                 *text.pins({"lower": (0.0, -1.0), "upper": (0.0, 1.0)}),
                 *(
                     f'[[loads]]\nname = "press {side}"\nkind = "edge"\nblock = "{block}"\n'

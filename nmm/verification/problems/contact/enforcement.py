@@ -39,7 +39,7 @@ class Penetration(SceneCase):
                 text.interface("contact", 30.0),
                 text.block("floor", "rock", text.rectangle((-1, -1), (2, 0))),
                 text.block("block", "rock", text.rectangle((0, 0), (1, 1))),
-                text.held("floor"),
+                text.fixed_block("floor"),
             ],
         )
 
@@ -94,8 +94,8 @@ class Groove(SceneCase):
                 text.block("right", "rock", text.turned(text.rectangle((0, -1), (3, 0)), turn)),
                 text.block("left", "rock", text.turned(text.rectangle((-1, -1), (0, 3)), turn)),
                 text.block("square", "rock", text.turned(text.rectangle((0, 0), (1, 1)), turn)),
-                text.held("right"),
-                text.held("left"),
+                text.fixed_block("right"),
+                text.fixed_block("left"),
             ],
         )
 

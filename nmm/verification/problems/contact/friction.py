@@ -38,7 +38,7 @@ class CyclicShear(SceneCase):
                 text.interface("joint", angle, more=law),
                 text.block("lower", "rock", text.rectangle((-1, -1), (2, 0))),
                 text.block("upper", "rock", text.rectangle((0, 0), (1, 1))),
-                text.held("lower"),
+                text.fixed_block("lower"),
                 '[[supports]]\nname = "drive"\nblock = "upper"\nfix = ["x"]\n'
                 f"displacement = [{TRAVEL!r}, 0]\nhistory = [[0, 0], [1, 1], [3, -1], [5, 1]]\n",
                 text.monitor("upper", (0.5, 0), "upper"),

@@ -35,7 +35,7 @@ def _drop(gap: float, duration: float, step: float, integrator: str, velocity: f
             text.interface("contact", 0.0),
             text.block("floor", "floor", text.rectangle((-1, -1), (2, 0))),
             text.block("block", "block", text.rectangle((0, gap), (1, 1 + gap))),
-            text.held("floor"),
+            text.fixed_block("floor"),
             f'[[initial_velocities]]\nblock = "block"\nvelocity = [0, {velocity!r}]\n',
             text.monitor("corner", (0, gap), "block"),
         ],

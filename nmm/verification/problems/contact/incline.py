@@ -65,7 +65,7 @@ class FrictionThreshold(SceneCase):
                 text.interface("slope", self.friction),
                 text.block("base", "rock", on_slope(self.slope, (0, -1), (4, 0))),
                 text.block("block", "rock", on_slope(self.slope, (2, 0), (3, 1))),
-                text.held("base"),
+                text.fixed_block("base"),
                 text.monitor("toe", on_slope(self.slope, (2, 0), (3, 1))[0], "block"),
             ],
         )
@@ -119,7 +119,7 @@ class CohesiveThreshold(SceneCase):
                 text.interface("bond", self.friction, more=strength),
                 text.block("base", "rock", on_slope(self.slope, (0, -1), (4, 0))),
                 text.block("slab", "rock", on_slope(self.slope, (2, 0), (3, self.height))),
-                text.held("base"),
+                text.fixed_block("base"),
                 text.monitor("toe", on_slope(self.slope, (2, 0), (3, 1))[0], "slab"),
             ],
         )
@@ -164,7 +164,7 @@ class Sliding(SceneCase):
                 text.interface("slope", self.friction),
                 text.block("base", "rock", on_slope(self.slope, (0, -1), (6, 0))),
                 text.block("block", "rock", block),
-                text.held("base"),
+                text.fixed_block("base"),
                 text.monitor("toe", block[0], "block"),
             ],
         )
@@ -217,7 +217,7 @@ class Train(SceneCase):
                 text.block("base", "base", on_slope(self.slope, (0, -1), (8, 0))),
                 text.block("lower", "low", lower),
                 text.block("upper", "up", upper),
-                text.held("base"),
+                text.fixed_block("base"),
                 text.monitor("lower", lower[0], "lower"),
                 text.monitor("upper", upper[0], "upper"),
             ],

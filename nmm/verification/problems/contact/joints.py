@@ -44,7 +44,7 @@ class JointedColumn(SceneCase):
                     text.block(f"block {n}", "rock", text.rectangle((0, n), (1, n + 1)))
                     for n in range(high)
                 ),
-                text.held_edge("foot", [[0, 0], [1, 0]]),
+                text.fixed_edge("foot", [[0, 0], [1, 0]]),
                 text.pulled_edge("top", [[0, high], [1, high]], [0, self.stress]),
                 text.monitor("foot", (0.5, 0), "block 0"),
                 text.monitor("top", (0.5, high), f"block {self.joints}"),
@@ -99,7 +99,7 @@ class DirectShear(SceneCase):
                 text.interface("bond", self.friction, more=law),
                 text.block("lower", "rock", text.rectangle((-1, -1), (2, 0))),
                 text.block("upper", "rock", text.rectangle((0, 0), (1, 1))),
-                text.held("lower"),
+                text.fixed_block("lower"),
                 '[[supports]]\nname = "drive"\nblock = "upper"\nfix = ["x"]\n'
                 f"displacement = [{self.travel!r}, 0]\nhistory = [[0, 0], [1, 1]]\n",
                 text.monitor("upper", (0.5, 0), "upper"),
@@ -162,7 +162,7 @@ class Chain(SceneCase):
                     text.block(name, name, text.rectangle((low, 0), (high, 0.01)))
                     for name, low, high in zip(names, x[:-1], x[1:], strict=True)
                 ),
-                text.held_edge("left", [[0, 0], [0, 0.01]]),
+                text.fixed_edge("left", [[0, 0], [0, 0.01]]),
                 text.pulled_edge("pull", [[0.1, 0], [0.1, 0.01]], [1e6, 0]),
             ],
         )

@@ -47,7 +47,7 @@ class Stack(SceneCase):
             text.material("rock", density=DENSITY),
             text.interface("contact", 30.0),
             text.block("floor", "rock", text.rectangle((-2, -1), (2, 0))),
-            text.held("floor"),
+            text.fixed_block("floor"),
         ]
         for number, (height, width) in enumerate(zip(self.heights, self.widths, strict=True)):
             corners = text.rectangle((-width / 2, low), (width / 2, low + height))
@@ -92,7 +92,7 @@ class Column(SceneCase):
             [
                 text.material("rock", modulus=self.modulus, poisson=0.0, density=DENSITY),
                 text.block("column", "rock", text.rectangle((0, 0), (1, self.height))),
-                text.held_edge("foot", [[0, 0], [1, 0]]),
+                text.fixed_edge("foot", [[0, 0], [1, 0]]),
                 *(text.monitor(f"y{y}", (0.5, y), "column") for y in (0, 5, 10)),
             ],
         )
@@ -129,7 +129,7 @@ class Overhang(SceneCase):
             text.material("rock", density=DENSITY),
             text.interface("contact", 35.0),
             text.block("table", "rock", text.rectangle((-3, -1), (0, 0))),
-            text.held("table"),
+            text.fixed_block("table"),
         ]
         # From the table up the overhangs are 1/(2n), ..., 1/4, 1/2.
         steps = self.share / (2 * np.arange(self.number, 0, -1))

@@ -70,7 +70,7 @@ class Hertz(Pressure):
                 text.interface("smooth", 0.0),
                 text.block("plane", "rigid", text.rectangle((-r, -r), (r, 0))),
                 text.block("cylinder", "steel", self._arc()),
-                text.held("plane"),
+                text.fixed_block("plane"),
                 *text.pins({"cylinder": (0.0, r)}),
                 *text.pins({"cylinder": (0.0, r / 2)}, "axis"),
                 f'[[loads]]\nname = "press"\nkind = "edge"\nblock = "cylinder"\n'
@@ -170,7 +170,7 @@ class Punch(Pressure):
                 text.interface("smooth", 0.0),
                 text.block("body", "soft", text.rectangle((-w, -w), (w, 0))),
                 text.block("punch", "rigid", text.rectangle((-1, 0), (1, 1))),
-                text.held_edge("foot", [[-w, -w], [w, -w]]),
+                text.fixed_edge("foot", [[-w, -w], [w, -w]]),
                 *text.pins({"punch": (0.0, 1.0)}),
                 *text.pins({"punch": (0.0, 0.5)}, "axis"),
                 '[[loads]]\nname = "press"\nkind = "edge"\nblock = "punch"\n'

@@ -53,7 +53,7 @@ class BlockOnSlope(SceneCase):
                 text.interface("slope", self.friction),
                 text.block("base", "rock", on_slope(self.slope, (0, -1), (4, 0))),
                 text.block("block", "rock", on_slope(self.slope, (2, 0), (2 + self.width, 1))),
-                text.held("base"),
+                text.fixed_block("base"),
                 text.monitor("toe", on_slope(self.slope, (2, 0), (3, 1))[0], "block"),
             ],
         )

@@ -65,8 +65,8 @@ class BeamWithHoles(GrowingCrack):
             f"{block}holes = {holes}\n",
             crack("c", [[4.0, 0.0], [4.0, 1.0]]),
             force("load", [10.0, 8.0], -1.0),
-            text.held_point("left", [1.0, 0.0]),
-            text.held_point("right", [19.0, 0.0], "y"),
+            text.fixed_point("left", [1.0, 0.0]),
+            text.fixed_point("right", [19.0, 0.0], "y"),
             grown(0.2, 10.0),
             net(0.2, 11.0, "graded", options),
         ]
@@ -110,8 +110,8 @@ class ShearedBeam(GrowingCrack):
             force("b", [-0.458, 0.306], -less),
             force("d", [-0.061, 0.0], 1.0),
             force("e", [0.458, 0.0], less),
-            text.held_point("left", [-0.661, 0.0]),
-            text.held_point("right", [0.661, 0.0], "y"),
+            text.fixed_point("left", [-0.661, 0.0]),
+            text.fixed_point("right", [0.661, 0.0], "y"),
             grown(0.012, 10.0),
             net(0.012, 11.0, "graded", options),
         ]
@@ -159,7 +159,7 @@ class LPanel(GrowingCrack):
             text.block("panel", "m", np.array(ring, dtype=float).tolist()),
             crack("c", [[0.25, 0.25], [0.24293, 0.25707]]),
             force("lift", [0.47, 0.25], 1.0),
-            text.held_edge("floor", [[0.0, 0.0], [0.25, 0.0]]),
+            text.fixed_edge("floor", [[0.0, 0.0], [0.25, 0.0]]),
             grown(0.01, 0.215),
             net(0.008, 11.0, "graded", options),
         ]
@@ -202,8 +202,8 @@ class StressAlongCrack(GrowingCrack):
             text.pulled_edge("up", [[-half, half], [half, half]], [0.0, 1.0]),
             text.pulled_edge("down", [[-half, -half], [half, -half]], [0.0, -1.0]),
             *(sides if self.along else []),
-            text.held_point("left", [-half, -half]),
-            text.held_point("right", [half, -half], "y"),
+            text.fixed_point("left", [-half, -half]),
+            text.fixed_point("right", [half, -half], "y"),
             grown(0.05, 0.8),
             net(0.1, 10.0, "graded", options),
         ]

@@ -52,8 +52,8 @@ class StruckCrack(SceneCase):
             text.block("plate", "m", text.rectangle((-5.0, -h), (5.0, h))),
             crack("c", [[-5.0, 0.0], [0.0, 0.0]]),
             text.pulled_edge("up", [[-5.0, h], [5.0, h]], [0.0, self.stress]),
-            text.held_point("left", [-5.0, -h]),
-            text.held_point("right", [5.0, -h], "y"),
+            text.fixed_point("left", [-5.0, -h]),
+            text.fixed_point("right", [5.0, -h], "y"),
             "[inertia]\n",
             "[fracture]\ntoughness = 1e12\nincrement = 1.0\n",
             net(0.2, 11.0),
@@ -124,7 +124,7 @@ class RunningCrack(SceneCase):
         h, nu = self.half, self.poisson
         way = self.half * self.start
         rate = (4 * self.stress) ** 2 * way * (1 - 2 * nu) / np.pi * (1 + nu) / (1 - nu)
-        sides = [text.held_edge(f"side {x:g}", [[x, -h], [x, h]], "x") for x in (-h, h)]
+        sides = [text.fixed_edge(f"side {x:g}", [[x, -h], [x, h]], "x") for x in (-h, h)]
         motion = f'[formulation.integrator]\ntype = "newmark"\nstep = {self.arrival / 60!r}\n'
         tables: Sequence[str] = [
             text.material("m", self.modulus, nu, self.density),

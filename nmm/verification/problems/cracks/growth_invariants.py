@@ -67,8 +67,8 @@ class SameAnywhere(GrowingCrack):
             crack("c", [at((-0.05, -0.03)), at((0.3, 0.15))]),
             text.pulled_edge("up", [at((0.0, 1.0)), at((1.0, 1.0))], way((0.0, 1.0))),
             text.pulled_edge("down", [at((0.0, -1.0)), at((1.0, -1.0))], way((0.0, -1.0))),
-            text.held_point("lower", at((1.0, -1.0))),
-            text.held_point("other", at((0.0, -1.0))),
+            text.fixed_point("lower", at((1.0, -1.0))),
+            text.fixed_point("other", at((0.0, -1.0))),
             grown(0.03, 0.24),
             net(0.08, self.angle + float(np.degrees(self.where.turn))),
         ]

@@ -55,9 +55,9 @@ class NotchedBeam(SceneCase):
                 text.interface("crack", 35.0, more=plane) + law,
                 text.block("left", "concrete", left),
                 text.block("right", "concrete", left[::-1] * [-1, 1]),
-                text.held_point("pin", [-1, 0]),
-                text.held_point("roller", [1, 0], "y"),
-                text.held_point("push", [0, 0.2], "y") + f"displacement = [0, {-self.way!r}]\n",
+                text.fixed_point("pin", [-1, 0]),
+                text.fixed_point("roller", [1, 0], "y"),
+                text.fixed_point("push", [0, 0.2], "y") + f"displacement = [0, {-self.way!r}]\n",
             ],
         )
 

@@ -39,7 +39,7 @@ def led(box: Box, stress: Sequence[str]) -> list[str]:
         f'[[loads]]\nname = "{name}"\nkind = "edge"\nsegment = {at}\nfield = ["{x}", "{y}"]\n'
         for name, at, (x, y) in sides
     ]
-    return [*loads, text.held_point("one", [x0, y0]), text.held_point("other", [x1, y0], "y")]
+    return [*loads, text.fixed_point("one", [x0, y0]), text.fixed_point("other", [x1, y0], "y")]
 
 
 def ring(corners: int) -> Floats:

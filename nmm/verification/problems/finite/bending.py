@@ -23,7 +23,7 @@ def strip(depth: float, tables: Sequence[str], increment: float) -> str:
         'title = "Strip"\nplane = "stress"\n[loading]\nuntil = 1.0\n',
         [
             text.material("strip", MODULUS, 0.0, None),
-            text.held_edge("root", [[0, 0], [0, depth]]),
+            text.fixed_edge("root", [[0, 0], [0, depth]]),
             *tables,
             f"[formulation.loading]\nincrement = {increment!r}\n"
             '[formulation.rotation]\nupdate = "finite"\n',

@@ -49,8 +49,8 @@ class BlownCylinder(SceneCase):
                 '[materials.rubber]\nlaw = "neo_hookean"\n'
                 f"young_modulus = {2 * 1.4999!r}\npoisson_ratio = 0.4999\n",
                 text.block("ring", "rubber", np.concatenate([inner, 2 * inner[::-1]])),
-                text.held_edge("x", [(0, 1), (0, 2)], "x"),
-                text.held_edge("y", [(1, 0), (2, 0)], "y"),
+                text.fixed_edge("x", [(0, 1), (0, 2)], "x"),
+                text.fixed_edge("y", [(1, 0), (2, 0)], "y"),
                 *pushes,
                 text.monitor("inner", (1, 0), "ring"),
                 "[formulation.loading]\nincrement = 0.25\n"

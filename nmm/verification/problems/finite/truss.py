@@ -31,7 +31,7 @@ def truss(head: str, tables: Sequence[str]) -> str:
         [
             text.material("steel", STIFFNESS / width, 0.0, None),
             text.block("bar", "steel", [-side, end - side, end + side, side]),
-            text.held_point("hinge", [0, 0]),
+            text.fixed_point("hinge", [0, 0]),
             text.monitor("apex", end, "bar"),
             *tables,
         ],
@@ -54,7 +54,7 @@ class PushedTruss(SceneCase):
         """Return the bar with its end led down."""
         return truss(
             "",
-            [text.held_point("apex", [SPAN, RISE]) + f"displacement = [0, {-self.way * RISE}]\n"],
+            [text.fixed_point("apex", [SPAN, RISE]) + f"displacement = [0, {-self.way * RISE}]\n"],
         )
 
     def measure(self, run: "Run") -> Checks:
@@ -77,7 +77,7 @@ class SnappedTruss(SceneCase):
             '[loading]\nuntil = "failure"\n'
             "[formulation.loading]\nincrement = 50.0\ntolerance = 1e-5\n",
             [
-                text.held_point("apex", [SPAN, RISE], "x"),
+                text.fixed_point("apex", [SPAN, RISE], "x"),
                 f'[[loads]]\nname = "push"\nkind = "point"\npoint = [{SPAN}, {RISE}]\n'
                 "force = [0, -0.5]\n",
             ],

@@ -104,7 +104,7 @@ class HeatAroundSlit(SceneCase):
                 warm("stone", 1e9, 0.2, 1e-5, conductivity=2.0),
                 text.block("wall", "stone", text.rectangle((0, 0), (2, 0.5))),
                 '[[cracks]]\nname = "slit"\npoints = [[1.003, 0.1], [1.003, 0.4]]\n',
-                text.held_edge("foot", [[0, 0], [0, 0.5]]),
+                text.fixed_edge("foot", [[0, 0], [0, 0.5]]),
                 edge("hot", np.array([0.0, 0.0]), np.array([0.0, 0.5]), 40.0),
                 edge("cold", np.array([2.0, 0.0]), np.array([2.0, 0.5]), 0.0),
             ],

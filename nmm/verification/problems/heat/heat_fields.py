@@ -40,8 +40,8 @@ class HotCore(SceneCase):
                 GLUE,
                 text.block("core", "alloy", np.concatenate([[[0, 0]], 0.5 * arc])),
                 text.block("ring", "alloy", np.concatenate([2 * arc, 0.5 * arc[::-1]])),
-                text.held_edge("left", [(0, 0), (0, 2)], "x"),
-                text.held_edge("low", [(0, 0), (2, 0)], "y"),
+                text.fixed_edge("left", [(0, 0), (0, 2)], "x"),
+                text.fixed_edge("low", [(0, 0), (2, 0)], "y"),
                 given("core", 60.0),
                 given("ring", 0.0),
                 text.monitor("rim", (2.0, 0.0), "ring"),
@@ -92,7 +92,7 @@ class LinearTemperature(SceneCase):
             for i, ends in enumerate(ends)
         ]
         # Springs at three points hold without stress.
-        held = [text.held_point("foot", (0.0, 0.0)), text.held_point("top", (0.0, 1.0), "x")]
+        held = [text.fixed_point("foot", (0.0, 0.0)), text.fixed_point("top", (0.0, 1.0), "x")]
         head = f'title = "Linear temperature"\nplane = "{self.plane}"\n[heat]\n'
         tip = text.monitor("tip", (2.0, 1.0), f"b{self.blocks - 1}")
         material = warm("m", 30e9, 0.2, 1e-5, conductivity=2.0)

@@ -66,8 +66,8 @@ class HeatedCylinder(SceneCase):
             [
                 warm("steel", 200e9, 0.3, 12e-6, conductivity=50.0),
                 text.block("wall", "steel", np.concatenate([2 * arc, arc[::-1]])),
-                text.held_edge("left", [(0, 1), (0, 2)], "x"),
-                text.held_edge("low", [(1, 0), (2, 0)], "y"),
+                text.fixed_edge("left", [(0, 1), (0, 2)], "x"),
+                text.fixed_edge("low", [(1, 0), (2, 0)], "y"),
                 *faces,
                 text.monitor("inner", (1.0, 0.0), "wall"),
                 text.monitor("outer", (2.0, 0.0), "wall"),
@@ -130,8 +130,8 @@ class ParabolicTemperature(SceneCase):
                 edge("low", np.array([-8, -1]), np.array([8, -1]), 0.0),
                 edge("top", np.array([-8, 1]), np.array([8, 1]), 0.0),
                 '[[heat_sources]]\nname = "inside"\nblock = "plate"\npower = 80.0\n',
-                text.held_point("middle", (0.0, 0.0)),
-                text.held_point("side", (4.0, 0.0), "y"),
+                text.fixed_point("middle", (0.0, 0.0)),
+                text.fixed_point("side", (4.0, 0.0), "y"),
             ],
         )
 
@@ -174,7 +174,7 @@ class Slab(SceneCase):
                 warm("m", 30e9, 0.2, 0.0, conductivity=2.0).replace("thermal_expansion = 0.0\n", "")
                 + dense,
                 text.box("slab", (0, 0), (4, 1), "m"),
-                text.held("slab"),
+                text.fixed_block("slab"),
                 edge("hot", np.array([0, 0]), np.array([0, 1]), 100.0),
             ],
         )

@@ -57,16 +57,16 @@ class Restrained(SceneCase):
         """Return a bar of 2 m by 1 m, 30 K warmer."""
         sides = {
             "x": [
-                text.held_edge("left", [(0, 0), (0, 1)], "x"),
-                text.held_edge("right", [(2, 0), (2, 1)], "x"),
+                text.fixed_edge("left", [(0, 0), (0, 1)], "x"),
+                text.fixed_edge("right", [(2, 0), (2, 1)], "x"),
             ],
             "y": [
-                text.held_edge("low", [(0, 0), (2, 0)], "y"),
-                text.held_edge("top", [(0, 1), (2, 1)], "y"),
+                text.fixed_edge("low", [(0, 0), (2, 0)], "y"),
+                text.fixed_edge("top", [(0, 1), (2, 1)], "y"),
             ],
         }
         held = [table for axis in self.axes for table in sides[axis]]
-        held += [] if "y" in self.axes else [text.held_point("foot", (0.0, 0.0), "y")]
+        held += [] if "y" in self.axes else [text.fixed_point("foot", (0.0, 0.0), "y")]
         head = f'title = "Restrained bar"\nplane = "{self.plane}"\n[heat]\n'
         bar = [warm("concrete", 30e9, 0.2, 1e-5), text.box("bar", (0, 0), (2, 1), "concrete")]
         return text.scene(head, [*bar, *held, given("bar", 30.0)])
@@ -105,9 +105,9 @@ class ClosingGap(SceneCase):
                 text.interface("contact", 0.0),
                 text.box("bar", (0, 0), (2, 0.5), "concrete"),
                 text.box("wall", (gap, -0.5), (1, 1.5), "wall"),
-                text.held("wall"),
-                text.held_edge("left", [(0, 0), (0, 0.5)], "x"),
-                text.held_edge("low", [(0, 0), (2, 0)], "y"),
+                text.fixed_block("wall"),
+                text.fixed_edge("left", [(0, 0), (0, 0.5)], "x"),
+                text.fixed_edge("low", [(0, 0), (2, 0)], "y"),
                 given("bar", 30.0),
                 given("wall", 0.0),
             ],
@@ -137,8 +137,8 @@ class Bimetal(SceneCase):
                 GLUE,
                 text.box("low", (0, 0), (20, 0.4), "steel"),
                 text.box("top", (0, 0.4), (20, 0.6), "zinc"),
-                text.held_edge("wall", [(0, 0), (0, 1)], "x"),
-                text.held_point("foot", (0.0, 0.4), "y"),
+                text.fixed_edge("wall", [(0, 0), (0, 1)], "x"),
+                text.fixed_point("foot", (0.0, 0.4), "y"),
                 given("low", 80.0),
                 given("top", 80.0),
                 text.monitor("tip", (20.0, 0.4), "low"),

@@ -75,8 +75,8 @@ class ShearCreep(SceneCase):
                     self.law, DELAYED if self.law == "kelvin" else SPRING, 0.25, LAWS[self.law]
                 ),
                 text.box("square", (0, 0), (1, 1), "salt"),
-                text.held_point("pin", [0, 0]),
-                text.held_point("slide", [1, 0], "y"),
+                text.fixed_point("pin", [0, 0]),
+                text.fixed_point("slide", [1, 0], "y"),
                 *(
                     text.pulled_edge(f"side{number}", (a, b), (self.stress * x, self.stress * y))
                     for number, (a, b, (x, y)) in enumerate(sides)
@@ -130,8 +130,8 @@ class PressedCreep(SceneCase):
             [
                 creeping("maxwell", self.shear, 0.25, [("viscosity", self.viscosity)]),
                 text.box("block", (0, 0), (1, 1), "salt"),
-                text.held_edge("base", [(0, 0), (1, 0)], "y"),
-                text.held_point("pin", [0, 0], "x"),
+                text.fixed_edge("base", [(0, 0), (1, 0)], "y"),
+                text.fixed_point("pin", [0, 0], "x"),
                 text.pulled_edge("press", [(0, 1), (1, 1)], [0, -1e6]),
                 text.monitor("top", (0.5, 1), "block"),
                 text.monitor("base", (0.5, 0), "block"),
@@ -184,8 +184,8 @@ class CylinderCreep(SceneCase):
             [
                 creeping("maxwell", 4e9, 0.25, [("viscosity", 4e14)]),
                 text.block("ring", "salt", np.concatenate([inner, 2 * inner[::-1]])),
-                text.held_edge("x", [(0, 1), (0, 2)], "x"),
-                text.held_edge("y", [(1, 0), (2, 0)], "y"),
+                text.fixed_edge("x", [(0, 1), (0, 2)], "x"),
+                text.fixed_edge("y", [(1, 0), (2, 0)], "y"),
                 *pushes,
                 text.monitor("inner", (1, 0), "ring"),
                 steps(5000.0),

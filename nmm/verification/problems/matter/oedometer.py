@@ -23,8 +23,8 @@ class Oedometer(SceneCase):
     def scene(self) -> str:
         """Return a square of 1 m whose top comes down by 10 mm."""
         walls = [
-            text.held_edge("left", [(0, 0), (0, 1)], "x"),
-            text.held_edge("right", [(1, 0), (1, 1)], "x"),
+            text.fixed_edge("left", [(0, 0), (0, 1)], "x"),
+            text.fixed_edge("right", [(1, 0), (1, 1)], "x"),
         ]
         return text.scene(
             'title = "Oedometer"\nplane = "strain"\n',
@@ -34,8 +34,8 @@ class Oedometer(SceneCase):
                 'dilation_angle = "10 deg"\n',
                 text.box("soil", (0, 0), (1, 1), "soil"),
                 *walls,
-                text.held_edge("base", [(0, 0), (1, 0)], "y"),
-                text.held_edge("top", [(0, 1), (1, 1)], "y") + "displacement = [0, -0.01]\n",
+                text.fixed_edge("base", [(0, 0), (1, 0)], "y"),
+                text.fixed_edge("top", [(0, 1), (1, 1)], "y") + "displacement = [0, -0.01]\n",
                 "[loading]\nuntil = 1.0\n[formulation.loading]\nincrement = 0.25\n",
                 '[formulation.supports]\nmethod = "lagrange"\n',
             ],

@@ -42,8 +42,8 @@ class SoilSlope(SceneCase):
                 f"poisson_ratio = 0.3\ndensity = {WEIGHT / 9.81!r}\ncohesion = 1e4\n"
                 'friction_angle = "20 deg"\n',
                 text.block("slope", "soil", [(0, 0), (42, 0), (42, 10), (20, 10)]),
-                text.held_edge("base", [[0, 0], [42, 0]]),
-                text.held_edge("far", [[42, 0], [42, 10]], "x"),
+                text.fixed_edge("base", [[0, 0], [42, 0]]),
+                text.fixed_edge("far", [[42, 0], [42, 10]], "x"),
                 "[gravity]\n[strength_reduction]\nlowest = 0.8\nhighest = 2.0\n",
             ],
         )
@@ -132,7 +132,7 @@ class SlidingWedge(SceneCase):
                 text.block("base", "rock", base),
                 text.block("wedge", "rock", [(0, 0), back, crest]),
                 cross if self.cut else "",
-                text.held("base"),
+                text.fixed_block("base"),
                 "[gravity]\n[contact]\n[strength_reduction]\n",
             ],
         )

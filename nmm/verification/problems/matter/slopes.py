@@ -101,7 +101,7 @@ class JointedSlope(SceneCase):
                         zip(self.dips, self.spacings, self.origins, strict=True)
                     )
                 ),
-                text.held("base"),
+                text.fixed_block("base"),
                 "[gravity]\n[contact]\n[strength_reduction]\n",
             ],
         )

@@ -34,10 +34,10 @@ def sheared_layer(
     width, height = size
     return [
         text.box("layer", (0, 0), size, material),
-        text.held_edge("left", [(0, 0), (0, height)], "y"),
-        text.held_edge("right", [(width, 0), (width, height)], "y"),
-        text.held_edge("foot", [(0, 0), (width, 0)]),
-        text.held_edge("top", [(0, height), (width, height)]) + f"displacement = [{way}, 0]\n",
+        text.fixed_edge("left", [(0, 0), (0, height)], "y"),
+        text.fixed_edge("right", [(width, 0), (width, height)], "y"),
+        text.fixed_edge("foot", [(0, 0), (width, 0)]),
+        text.fixed_edge("top", [(0, height), (width, height)]) + f"displacement = [{way}, 0]\n",
         f'[[loads]]\nname = "more"\nkind = "body"\ndensity = [{push}, 0]\n',
         f'[loading]\nscaled = ["top"]\nuntil = 1.0\n[formulation.loading]\n'
         f"increment = {increment}\n",

@@ -64,8 +64,8 @@ class FlowingTunnel(SceneCase):
                 text.block("ring", "rock", np.concatenate([inner, RIM * inner[::-1]])),
                 f'[[initial_stresses]]\nblock = "all"\nacross = {-PRESSURE}\n'
                 f"stress = [{-PRESSURE}, {-PRESSURE}, 0]\n",
-                text.held_edge("x", [(0, 1), (0, RIM)], "x"),
-                text.held_edge("y", [(1, 0), (RIM, 0)], "y"),
+                text.fixed_edge("x", [(0, 1), (0, RIM)], "x"),
+                text.fixed_edge("y", [(1, 0), (RIM, 0)], "y"),
                 *edges,
                 text.monitor("wall", (1.0, 0.0), "ring"),
             ],

@@ -127,7 +127,7 @@ class BoltedBlock(SceneCase):
                 text.interface("joint", 30.0),
                 text.block("base", "rock", text.rectangle((-3, -3), (5, 0))),
                 text.block("block", "rock", text.rectangle((0, 0), (2, 1))),
-                text.held_edge("floor", [[-3, -3], [5, -3]]),
+                text.fixed_edge("floor", [[-3, -3], [5, -3]]),
                 f"[gravity]\nacceleration = {[float(g) for g in down]}\n",
                 f'[[springs]]\nname = "bolt"\npoints = [[0.5, 0.5], {[float(x) for x in anchor]}]\n'
                 'blocks = ["block", "base"]\nstiffness = "20 MN/m"\n',
@@ -174,7 +174,7 @@ class HungBlock(SceneCase):
                 text.interface("joint", 30.0),
                 text.block("roof", "rock", text.rectangle((0, 0), (4, 3))),
                 text.block("block", "rock", text.rectangle((1, -1), (3, 0))),
-                text.held_edge("top", [[0, 3], [4, 3]]),
+                text.fixed_edge("top", [[0, 3], [4, 3]]),
                 *(BOLT.format(name=name, x=x) for name, x in (("left", 1.5), ("right", 2.5))),
                 text.monitor("block", (2, -1), "block"),
             ],

@@ -52,7 +52,7 @@ class CrackedTie(SceneCase):
                 f'[[bars]]\nname = "bar"\npoints = [[{-JACK}, 0], [{end}, 0]]\nends = "fixed"\n'
                 f"diameter = {DIAMETER!r}\nyoung_modulus = 200e9\n"
                 f'[bars.bond]\nlaw = "plastic"\nstiffness = 1e12\nstrength = {BOND!r}\n',
-                text.held("left"),
+                text.fixed_block("left"),
                 '[[supports]]\nname = "pull"\nblock = "right"\nfix = ["x", "y"]\n'
                 f"displacement = [{self.way!r}, 0]\n",
             ],

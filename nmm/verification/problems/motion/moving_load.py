@@ -51,8 +51,8 @@ class MovingForce(SceneCase):
             [
                 text.material("concrete", self.modulus, 0.0, self.density),
                 text.block("beam", "concrete", text.rectangle((0, 0), (long, high))),
-                text.held_point("pin", [0, high / 2]),
-                text.held_point("roller", [long, high / 2], "y"),
+                text.fixed_point("pin", [0, high / 2]),
+                text.fixed_point("roller", [long, high / 2], "y"),
                 f'[[loads]]\nname = "wheel"\nkind = "moving"\nspeed = {self.speed!r}\n'
                 f"segment = [[0, {high}], [{long}, {high}]]\nforce = [0, {-self.force}]\n",
                 text.monitor("middle", (long / 2, high / 2), "beam"),

@@ -125,7 +125,7 @@ class ObliqueWave(SceneCase):
                 text.box("ground", (0, 0), (SIDE, SIDE), "ground"),
                 f'[[viscous_boundaries]]\nname = "foot"\nsegment = [[0, 0], [{SIDE}, 0]]\n',
                 *(
-                    text.held_edge(name, ends) + f'field = ["{field[0]}", "{field[1]}"]\n'
+                    text.fixed_edge(name, ends) + f'field = ["{field[0]}", "{field[1]}"]\n'
                     for name, ends in edges.items()
                 ),
                 text.monitor("foot", (SIDE / 2, 0), "ground"),

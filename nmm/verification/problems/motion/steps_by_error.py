@@ -88,7 +88,7 @@ class StrainingBounce(SceneCase):
                 text.interface("contact", 0.0),
                 text.block("floor", "floor", text.rectangle((-1, -1), (2, 0))),
                 text.block("block", "block", text.rectangle((0, 0.5), (1, 1.5))),
-                text.held("floor"),
+                text.fixed_block("floor"),
                 text.monitor("middle", (0.5, 1.0), "block"),
             ],
         )
@@ -139,7 +139,7 @@ class BarOnWall(SceneCase):
                 text.interface("smooth", 0.0),
                 text.block("wall", "elastic", text.rectangle((-1, -1), (0, 1))),
                 text.block("bar", "elastic", text.rectangle((2e-3, -0.25), (10.002, 0.25))),
-                text.held("wall"),
+                text.fixed_block("wall"),
                 '[[initial_velocities]]\nblock = "bar"\nvelocity = [-1e-3, 0]\n',
                 text.monitor("near", (2e-3, 0.0), "bar"),
             ],

@@ -47,7 +47,7 @@ def oscillator(integrator: str, step: float, duration: float, options: str = "")
         [
             text.material("mass", modulus=1e3, density=1.0),
             text.block("block", "mass", text.rectangle((-0.5, -0.5), (0.5, 0.5))),
-            text.held_point("spring", [0, 0], "x"),
+            text.fixed_point("spring", [0, 0], "x"),
             '[[initial_velocities]]\nblock = "block"\nvelocity = [1, 0]\n',
             text.monitor("middle", (0, 0), "block"),
         ],

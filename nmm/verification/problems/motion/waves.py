@@ -35,8 +35,8 @@ class BarWave(SceneCase):
             [
                 text.material("soft", modulus=1.0, poisson=0.0, density=1.0),
                 text.block("bar", "soft", text.rectangle((0, 0), (long, high))),
-                text.held_edge("left", [[0, 0], [0, high]], "x"),
-                text.held_point("pin", [0, 0], "y"),
+                text.fixed_edge("left", [[0, 0], [0, high]], "x"),
+                text.fixed_point("pin", [0, 0], "y"),
                 text.pulled_edge("pull", [[long, 0], [long, high]], [self.stress, 0]),
                 text.monitor("middle", (long / 2, high / 2), "bar"),
                 text.monitor("end", (long, high / 2), "bar"),

@@ -48,7 +48,7 @@ class Lever(SceneCase):
                 text.material(f"rock{number}", modulus=STIFFNESS / WIDTH, poisson=0.0),
                 text.block(f"link{number}", f"rock{number}", text.rectangle(*ends)),
                 text.interface(f"bond{number}", 30.0, ("steel", f"rock{number}"), more),
-                text.held_edge(f"foot{number}", [[ends[0][0], 0], [ends[1][0], 0]]),
+                text.fixed_edge(f"foot{number}", [[ends[0][0], 0], [ends[1][0], 0]]),
             ]
         head = 'plane = "stress"\n[contact]\n[loading]\nuntil = "failure"\n'
         return text.scene(f'{head}[loading.control]\ntype = "events"\n', tables)

@@ -44,8 +44,8 @@ def bundle(
             text.interface(f"i{number}", 30.0, (f"f{number}", f"rock{number}"), more),
             text.block(f"c{number}", f"rock{number}", text.rectangle((left, 0), (left + width, 1))),
             text.block(f"b{number}", f"f{number}", text.rectangle((left, -1), (left + width, 0))),
-            text.held(f"b{number}"),
-            text.held_edge(f"s{number}", ends) + "displacement = [0, 1e-6]\n",
+            text.fixed_block(f"b{number}"),
+            text.fixed_edge(f"s{number}", ends) + "displacement = [0, 1e-6]\n",
         ]
     tables.append(text.monitor("top", (width / 2, 1), "c0"))
     head = 'plane = "stress"\n[contact]\n[loading]\nuntil = "failure"\n'

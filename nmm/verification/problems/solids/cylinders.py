@@ -120,7 +120,7 @@ class Bars(SceneCase):
                 text.interface("glue", 0.0, more={"bonded": True}),
                 text.box("left", (0, 0), (1, 1), "soft"),
                 text.box("right", (1, 0), (1, 1), "hard"),
-                text.held_edge("wall", [[0, 0], [0, 1]]),
+                text.fixed_edge("wall", [[0, 0], [0, 1]]),
                 text.pulled_edge("pull", [[2, 0], [2, 1]], [1, 0]),
                 text.monitor("root", (0, 0.5), "left"),
                 text.monitor("tip", (2, 0.5), "right"),
@@ -168,7 +168,7 @@ class Core(SceneCase):
         c = quarter(1.0, 32)[::-1]
         middle = (c[1:] + c[:-1]).tolist()
         rim = (
-            text.held_edge(f"o{i}", (2 * c[i : i + 2]).tolist()) + f"displacement = {middle[i]}\n"
+            text.fixed_edge(f"o{i}", (2 * c[i : i + 2]).tolist()) + f"displacement = {middle[i]}\n"
             for i in range(len(middle))
         )
         return text.scene(
@@ -179,8 +179,8 @@ class Core(SceneCase):
                 text.interface("glue", 0.0, more={"bonded": True}),
                 text.block("core", "core", np.concatenate([[[0.0, 0.0]], 0.4 * c])),
                 text.block("ring", "ring", np.concatenate([2 * c, 0.4 * c[::-1]])),
-                text.held_edge("x", [[0, 0], [0, 2]], "x"),
-                text.held_edge("y", [[0, 0], [2, 0]], "y"),
+                text.fixed_edge("x", [[0, 0], [0, 2]], "x"),
+                text.fixed_edge("y", [[0, 0], [2, 0]], "y"),
                 *rim,
             ],
         )

@@ -47,8 +47,8 @@ class BrazilianDisc(SceneCase):
             [
                 text.material("rock", modulus=1000.0, poisson=0.2, density=None),
                 text.block("disc", "rock", ring),
-                text.held_point("foot", [0, -r]),
-                text.held_point("top", [0, r], "x"),
+                text.fixed_point("foot", [0, -r]),
+                text.fixed_point("top", [0, r], "x"),
                 f'[[loads]]\nname = "press"\nkind = "point"\npoint = [0, {r}]\n'
                 f"force = [0, {-self.force}]\n",
             ],

@@ -248,7 +248,7 @@ class Jump(SceneCase):
                 text.interface("joint", 0.0, more=bond),
                 text.box("left", (0, 0), (1, 1), "soft"),
                 text.box("right", (1, 0), (1, 1), "soft"),
-                text.held_edge("wall", [[0, 0], [0, 1]]),
+                text.fixed_edge("wall", [[0, 0], [0, 1]]),
                 text.pulled_edge("pull", [[2, 0], [2, 1]], [1, 0]),
                 text.monitor("root", (0, 0.5), "left"),
                 text.monitor("near", (1, 0.5), "left"),

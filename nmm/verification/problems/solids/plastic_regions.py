@@ -63,8 +63,8 @@ class PlasticCylinder(SceneCase):
             [
                 steel,
                 text.block("ring", "steel", np.concatenate([inner, 2 * inner[::-1]])),
-                text.held_edge("x", [(0, 1), (0, 2)], "x"),
-                text.held_edge("y", [(1, 0), (2, 0)], "y"),
+                text.fixed_edge("x", [(0, 1), (0, 2)], "x"),
+                text.fixed_edge("y", [(1, 0), (2, 0)], "y"),
                 *pushes,
                 text.monitor("outer", (2, 0), "ring"),
                 '[loading]\nuntil = "failure"\nmaximum_factor = 2.0\n',
@@ -147,9 +147,9 @@ class Footing(SceneCase):
                 f"poisson_ratio = 0.3\ncohesion = 1.0\nfriction_angle = {angles}\n"
                 f"dilation_angle = {angles}\n{match}",
                 text.block("soil", "soil", [(0, 0), (wide, 0), (wide, deep), (1, deep), (0, deep)]),
-                text.held_edge("middle", [(0, 0), (0, deep)], "x"),
-                text.held_edge("far", [(wide, 0), (wide, deep)], "x"),
-                text.held_edge("base", [[0, 0], [wide, 0]]),
+                text.fixed_edge("middle", [(0, 0), (0, deep)], "x"),
+                text.fixed_edge("far", [(wide, 0), (wide, deep)], "x"),
+                text.fixed_edge("base", [[0, 0], [wide, 0]]),
                 text.pulled_edge("footing", [(0, deep), (1, deep)], [0, -1]),
                 f'[loading]\nuntil = "failure"\nmaximum_factor = {2 * self.capacity!r}\n',
                 f"[formulation.loading]\nincrement = {self.capacity / 10!r}\ntolerance = 0.005\n",

@@ -47,8 +47,8 @@ class PlasticBar(SceneCase):
             [
                 flowing(self.yields, self.modulus, 0.3, self.hardens),
                 text.box("bar", (0, 0), (2, 1), "steel"),
-                text.held_edge("left", [(0, 0), (0, 1)], "x"),
-                text.held_point("pin", [0, 0], "y"),
+                text.fixed_edge("left", [(0, 0), (0, 1)], "x"),
+                text.fixed_point("pin", [0, 0], "y"),
                 text.pulled_edge("pull", [(2, 0), (2, 1)], [self.stress, 0]) + history,
                 text.monitor("root", (0, 0.5), "bar"),
                 text.monitor("tip", (2, 0.5), "bar"),
@@ -100,8 +100,8 @@ class PlasticBeam(SceneCase):
             [
                 flowing(1.0, 1000.0, 0.3),
                 text.block("beam", "steel", [(0, 0), (9, 0), (9, 1), (3.5, 1), (2.5, 1), (0, 1)]),
-                text.held_edge("middle", [(0, 0), (0, 1)], "x"),
-                text.held_point("pin", [0, 0.5], "y"),
+                text.fixed_edge("middle", [(0, 0), (0, 1)], "x"),
+                text.fixed_point("pin", [0, 0.5], "y"),
                 text.pulled_edge("end", [(9, 0), (9, 1)], [0, force]),
                 text.pulled_edge("load", [(2.5, 1), (3.5, 1)], [0, -force]),
                 text.monitor("middle", (0, 0.0), "beam"),

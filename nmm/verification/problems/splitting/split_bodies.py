@@ -47,8 +47,8 @@ class CutBar(SceneCase):
                 f"[splitting.unit]\ntensile_strength = {0.999 * self.stress}\n"
                 "smallest_block = 0.05\nmost_blocks = 2\n",
                 f'[[initial_stresses]]\nblock = "bar"\nstress = [{self.stress}, 0, 0]\n',
-                text.held_edge("left", [[0, 0], [0, 0.1]]),
-                text.held_edge("right", [[2, 0], [2, 0.1]]),
+                text.fixed_edge("left", [[0, 0], [0, 0.1]]),
+                text.fixed_edge("right", [[2, 0], [2, 0.1]]),
                 text.monitor("one", (0.9999, 0.05), "bar"),
                 text.monitor("other", (1.0001, 0.05), "bar"),
             ],
@@ -106,8 +106,8 @@ class SplitDisc(SceneCase):
                 text.interface("contact", 20.0),
                 text.block("disc", "concrete", ring),
                 strength("concrete", 5e-3, "most_blocks = 4\n", self.shear),
-                text.held_point("foot", [0, -r]),
-                text.held_point("top", [0, r], "x"),
+                text.fixed_point("foot", [0, -r]),
+                text.fixed_point("top", [0, r], "x"),
                 f'[[loads]]\nname = "press"\nkind = "point"\npoint = [0, {r}]\n'
                 "force = [0, -1000]\n",
             ],

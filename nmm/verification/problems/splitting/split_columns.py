@@ -81,8 +81,8 @@ class CrushedColumn(SceneCase):
                 text.interface("contact", 20.0),
                 text.box("column", (0, 0), (w, h), "concrete"),
                 strength("concrete", 5e-3),
-                text.held_edge("foot", [[0, 0], [w, 0]], "y"),
-                text.held_edge("side", [[0, 0], [0, h]], "x"),
+                text.fixed_edge("foot", [[0, 0], [w, 0]], "y"),
+                text.fixed_edge("side", [[0, 0], [0, h]], "x"),
                 text.pulled_edge("head", [[0, h], [w, h]], [0, pressure]),
             ],
         )

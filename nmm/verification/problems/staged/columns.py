@@ -108,7 +108,7 @@ class Embankment(SceneCase):
         tables = [
             text.material("fill", self.modulus, self.poisson, self.density),
             text.interface("any", 30.0, more={"bonded": True}),
-            text.held_edge("ground", [[0, 0], [2, 0]]),
+            text.fixed_edge("ground", [[0, 0], [2, 0]]),
         ]
         for number in range(n):
             low, top = number * h, (number + 1) * h

@@ -38,7 +38,7 @@ class TwoHoles(SceneCase):
                 *(text.block(key, "rock", hole) for key, hole in holes.items()),
                 '[[initial_stresses]]\nblock = "all"\nstress = [-5e6, -10e6, 1e6]\n',
                 *(
-                    text.held_edge(f"side {n}", np.array(side).tolist())
+                    text.fixed_edge(f"side {n}", np.array(side).tolist())
                     for n, side in enumerate(
                         zip(outline, np.roll(outline, -1, axis=0), strict=True)
                     )
@@ -131,7 +131,7 @@ class UnloadedStack(SceneCase):
                 text.material("rock", density=self.density),
                 text.interface("contact", 30.0),
                 *(text.box(f"block {n}", (0, n), (1, 1)) for n in range(5)),
-                text.held_edge("ground", [[0, 0], [1, 0]]),
+                text.fixed_edge("ground", [[0, 0], [1, 0]]),
                 '[[stages]]\nname = "five"\n',
                 '[[stages]]\nname = "three"\nremove = ["block 3", "block 4"]\n',
             ],

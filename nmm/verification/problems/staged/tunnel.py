@@ -73,7 +73,7 @@ class Tunnel(SceneCase):
             field = f"field = {kirsch_field()}\n" if kind == "led" else ""
             for number, ends in enumerate(zip(rim, np.roll(rim, -1, axis=0), strict=True)):
                 tables.append(
-                    text.held_edge(f"{kind} {number}", np.array(ends).tolist()) + f"{field}"
+                    text.fixed_edge(f"{kind} {number}", np.array(ends).tolist()) + f"{field}"
                 )
             names = [f"{kind} {number}" for number in range(4)]
             change = (

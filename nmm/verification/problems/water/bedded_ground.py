@@ -58,7 +58,7 @@ class BeddedLayer(SceneCase):
                 text.material("shale", 1e9, 0.3, None)
                 + f'{key} = {ALONG}\n{key}_2 = {ACROSS}\naxis_angle = "{RISE} deg"\n',
                 text.block("layer", "shale", corners),
-                text.held_edge("base", corners[:2]),
+                text.fixed_edge("base", corners[:2]),
                 *(
                     f'[[{table}]]\nname = "{name}"\n{amount} = {value}\n'
                     f"segment = {[list(corners[i]) for i in pair]}\n"

@@ -68,9 +68,9 @@ class ConsolidatingColumn(SceneCase):
                 text.block("soil", "soil", text.rectangle((0, 0), (1, HEIGHT))),
                 f'[[heads]]\nname = "top"\nsegment = {top}\nhead = {HEIGHT!r}\n',
                 text.pulled_edge("fill", top, [0, -LOAD]),
-                text.held_edge("base", [corner, [1, 0]], "y"),
-                text.held_edge("left", [corner, top[0]], "x"),
-                text.held_edge("right", [[1, 0], top[1]], "x"),
+                text.fixed_edge("base", [corner, [1, 0]], "y"),
+                text.fixed_edge("left", [corner, top[0]], "x"),
+                text.fixed_edge("right", [[1, 0], top[1]], "x"),
                 text.monitor("top", (0.5, HEIGHT), "soil"),
             ],
         )

@@ -75,7 +75,7 @@ class FilledDitch(SceneCase):
                 f"hydraulic_conductivity = {CONDUCTIVITY}\nspecific_storage = 1e-8\n"
                 f"drainable_porosity = {DRAINABLE}\n",
                 text.block("ground", "sand", text.rectangle((0, 0), (LENGTH, TOP))),
-                text.held("ground"),
+                text.fixed_block("ground"),
                 f"[seepage]\ntransient = true\nfree_surface = true\ninitial = {self.before}\n"
                 f"duration = {self.duration!r}\n",
                 f'[[heads]]\nname = "ditch"\nsegment = [[0, 0], [0, {TOP}]]\nhead = {self.after}\n',

@@ -143,9 +143,9 @@ class SqueezedSoil(SceneCase):
                 + f"hydraulic_conductivity = {conductivity!r}\nspecific_storage = {storage!r}\n",
                 text.block("soil", "soil", text.rectangle((0, 0), (a, b))),
                 f'[[heads]]\nname = "edge"\nsegment = [[{a}, 0], [{a}, {b}]]\nhead = {b!r}\n',
-                text.held_edge("plate", [[0, b], [a, b]], "y") + f"field = {plate}\n",
-                text.held_edge("middle", [[0, 0], [0, b]], "x"),
-                text.held_edge("half", [[0, 0], [a, 0]], "y"),
+                text.fixed_edge("plate", [[0, b], [a, b]], "y") + f"field = {plate}\n",
+                text.fixed_edge("middle", [[0, 0], [0, b]], "x"),
+                text.fixed_edge("half", [[0, 0], [a, 0]], "y"),
                 text.monitor("edge", (a, b / 2), "soil"),
             ],
         )

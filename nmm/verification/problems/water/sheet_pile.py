@@ -44,7 +44,7 @@ class SheetPile(SceneCase):
                 text.block("layer", "sand", text.rectangle((0, 0), (LENGTH, DEPTH))),
                 '[[cracks]]\nname = "wall"\n'
                 f"points = [[{middle}, {top}], [{middle}, {top - self.reach}]]\n",
-                text.held("layer"),
+                text.fixed_block("layer"),
                 "[seepage]\n",
                 f'[[heads]]\nname = "up"\nsegment = [[0, {top}], [{middle}, {top}]]\n'
                 f"head = {top + DIFFERENCE}\n",

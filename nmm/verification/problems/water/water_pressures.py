@@ -46,7 +46,7 @@ class Dam(SceneCase):
                 text.interface("joint", 45.0),
                 text.block("dam", "concrete", [(0, 0), (24, 0), (4, 30), (0, 30)]),
                 text.box("rock", (-6, -10), (36, 10), "concrete"),
-                text.held("rock"),
+                text.fixed_block("rock"),
                 water("reservoir", 'segment = [[0, 0], [0, 30]]\nblock = "dam"\nlevel = 28.0'),
                 *([water("uplift", below)] if self.uplift else []),
             ],
@@ -108,7 +108,7 @@ class PlaneFailure(SceneCase):
                 text.interface("joint", friction),
                 text.block("slab", "rock", np.array([toe, foot, top, crest])),
                 text.block("ground", "rock", np.array(ground)),
-                text.held("ground"),
+                text.fixed_block("ground"),
                 water("plane", pull),
                 water("crack", face),
             ],
@@ -153,7 +153,7 @@ class Submerged(SceneCase):
                 text.interface("joint", 30.0),
                 text.box("block", (0, 0), (2, 1), "rock"),
                 text.box("floor", (-1, -1), (4, 1), "rock"),
-                text.held("floor"),
+                text.fixed_block("floor"),
                 *tables,
             ],
         )
@@ -183,8 +183,8 @@ class PressurisedCrack(SceneCase):
                 f'[[cracks]]\nname = "crack"\npoints = {[[-x for x in tip], tip]}\n',
                 # A level so high that the pressure is even to 1e-6.
                 water("water", 'crack = "crack"\nlevel = 1e6\nunit_weight = 2.0'),
-                text.held_point("a", [-10, -10]),
-                text.held_point("b", [10, -10], "y"),
+                text.fixed_point("a", [-10, -10]),
+                text.fixed_point("b", [10, -10], "y"),
             ],
         )
 

@@ -113,7 +113,11 @@ def test_a_block_between_walls_is_pulled_out_against_the_friction_of_the_stress(
         laid,
         pull,
     ]
-    tables += [text.held("left"), text.held("right"), '[loading]\nuntil = "failure"\n']
+    tables += [
+        text.fixed_block("left"),
+        text.fixed_block("right"),
+        '[loading]\nuntil = "failure"\n',
+    ]
     found = run('plane = "strain"\n[contact]\n', tables, enforcement)
     # Two faces of 1 m under 1 MPa; joints that closed freely would leave half of it and less.
     assert found.summary.failure_factor == pytest.approx(2 * np.tan(np.pi / 6), rel=5e-3)
@@ -147,7 +151,7 @@ def test_a_block_that_only_touches_two_blocks_below_is_pressed_by_all_of_the_str
     below = [text.box(f"below {x}", (x, -1), (1, 1)) for x in range(2)]
     above = [text.box("block", (0.3, 0), (1.4, 1)), text.box("above", (-1, 1), (4, 1))]
     laid = '[[initial_stresses]]\nblock = "all"\nstress = [0, -1e6, 0]\n'
-    held = [text.held(name) for name in ("below 0", "below 1", "above")]
+    held = [text.fixed_block(name) for name in ("below 0", "below 1", "above")]
     tables = [text.material("rock", 1e9, 0.2), contact(None), *below, *above, laid, *held]
     scene = nmm.parse_scene(text.scene('plane = "strain"\n[contact]\n', tables))
     table = {"contact": {"points": points}}

@@ -16,7 +16,7 @@ SCENE = text.scene(
         text.interface("joint", 20.0),
         text.box("base", (-1, -1), (4, 1)),
         text.box("block", (0, 0), (1, 1)),
-        text.held("base"),
+        text.fixed_block("base"),
     ],
 )
 

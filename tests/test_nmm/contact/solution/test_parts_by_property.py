@@ -23,7 +23,7 @@ SCENE = text.scene(
         text.interface("any", 30.0),
         text.box("base", (-1, -1), (3, 1)),
         text.box("top", (0, 0.001), (1, 0.999)),
-        text.held("base"),
+        text.fixed_block("base"),
     ],
 )
 ME = Path(__file__).stem

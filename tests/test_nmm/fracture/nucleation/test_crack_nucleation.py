@@ -217,7 +217,7 @@ def cautions(nucleation: str, size: float) -> str:
 
 
 def test_a_crack_begins_in_time_and_takes_what_its_faces_give() -> None:
-    ends = [text.held_edge("left", ((0, 0.5), (0, 0)), "x")]
+    ends = [text.fixed_edge("left", ((0, 0.5), (0, 0)), "x")]
     pull = '[[loads]]\nname = "pull"\nkind = "edge"\nsegment = [[2, 0], [2, 0.5]]\n'
     pull += "traction = [0.033, 0]\nhistory = [[0, 0], [10, 1]]\n"
     pin = '[[supports]]\nname = "pin"\npoint = [0, 0]\nfix = ["y"]\n'

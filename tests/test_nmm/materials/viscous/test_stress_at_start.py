@@ -24,9 +24,9 @@ def ground(inertia):
         name = "column"
         material = "salt"
         vertices = [[0, 0], [1, 0], [1, {HEIGHT}], [0, {HEIGHT}]]
-        {text.held_edge("left", ((0, 0), (0, HEIGHT)), "x")}
-        {text.held_edge("right", ((1, 0), (1, HEIGHT)), "x")}
-        {text.held_edge("foot", ((0, 0), (1, 0)), "y")}
+        {text.fixed_edge("left", ((0, 0), (0, HEIGHT)), "x")}
+        {text.fixed_edge("right", ((1, 0), (1, HEIGHT)), "x")}
+        {text.fixed_edge("foot", ((0, 0), (1, 0)), "y")}
         [gravity]
         acceleration = [0, -10]
         {inertia}

@@ -22,7 +22,7 @@ DROP = text.scene(
         text.interface("any", 0.0),
         text.box("floor", (-1, -1), (3, 1), "a"),
         text.box("b", (0, 0.2), (1, 1), "a"),
-        text.held("floor"),
+        text.fixed_block("floor"),
     ],
 )
 FREE = """
@@ -108,7 +108,7 @@ def test_overlap_counts_in_the_size_of_the_smaller_of_both_bodies(pressed, area)
         text.box("floor", (-1, -1), (5, 1), "a"),
         text.box("plate", (0, 0), (1, 1), "a"),
         text.box("chip", (3, 0), (1e-3, 1e-3), "a"),
-        text.held("floor"),
+        text.fixed_block("floor"),
         text.pulled_edge("press", [(at, side), (at + side, side)], (0, -force / side)),
     ]
     found = run(
@@ -188,7 +188,7 @@ def test_a_path_is_told_to_matter_where_what_slides_rubs(friction, told):
             text.interface("any", float(np.degrees(friction))),
             text.box("floor", (-1, -1), (5, 1), "a"),
             text.box("b", (0, 0), (1, 1), "a"),
-            text.held("floor"),
+            text.fixed_block("floor"),
             '[[supports]]\nname = "push"\nsegment = [[0, 0], [0, 1]]\nblock = "b"\nfix = ["x"]\n'
             "displacement = [0.01, 0]\n",
         ],

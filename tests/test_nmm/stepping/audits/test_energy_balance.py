@@ -231,7 +231,7 @@ DROP = text.scene(
         text.interface("any", 0.0),
         text.box("floor", (-1, -1), (3, 1), "a"),
         text.box("b", (0, 0.2), (1, 1), "a"),
-        text.held("floor"),
+        text.fixed_block("floor"),
     ],
 )
 

@@ -114,7 +114,7 @@ def test_a_load_that_contacts_carry_at_any_factor_has_no_bound_to_tell():
             text.interface("any", 30.0),
             text.box("base", (-1, -1), (3, 1)),
             text.box("top", (0, 0), (1, 1)),
-            text.held("base"),
+            text.fixed_block("base"),
             '[[loads]]\nname = "press"\nkind = "edge"\nsegment = [[0, 1], [1, 1]]\n'
             "traction = [0, -1e4]\n",
         ],

@@ -15,7 +15,7 @@ FLOOR = [
     text.material("rock", modulus=1e9, density=2500.0),
     text.interface("any", 30.0),
     text.box("floor", (-1, -1), (3, 1)),
-    text.held("floor"),
+    text.fixed_block("floor"),
 ]
 DROP = text.scene(
     'title = "drop"\nplane = "strain"\nduration = "60 ms"\n[inertia]\n[gravity]\n[contact]\n',

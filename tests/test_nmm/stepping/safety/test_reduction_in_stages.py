@@ -23,7 +23,7 @@ LATE = (
 def stopped(stages, more=""):
     """A block on an incline of 30 degrees, friction 40, before a stop that is held and cut away."""
     incline = block_on_incline(30, 40, search="tolerance = 0.02\nhighest = 3.0")
-    return incline + STOP + text.held("stop") + stages + more
+    return incline + STOP + text.fixed_block("stop") + stages + more
 
 
 def test_a_block_whose_stop_is_cut_away_is_as_safe_as_without_it():

@@ -24,7 +24,7 @@ def box(name: str, left: float, low: float, right: float, high: float) -> str:
     return f'[[blocks]]\nname = "{name}"\nmaterial = "m"\nvertices = {corners}\n'
 
 
-def held_edge(segment: Sequence[Sequence[float]], block: str) -> str:
+def fixed_edge(segment: Sequence[Sequence[float]], block: str) -> str:
     """Return a support along an edge of a block."""
     return (
         f'[[supports]]\nname = "held"\nblock = "{block}"\nsegment = {segment}\nfix = ["x", "y"]\n'
@@ -46,8 +46,8 @@ def quads(size: float, degree: int = 1) -> str:
     return f'[formulation.cover]\ntype = "quads"\nsize = {size}\ndegree = {degree}\nangle = 0.0\n'
 
 
-FLOOR = box("b", 0, 0, 1, 1) + held_edge([[0, 0], [1, 0]], "b")
-HELD_BELOW = held_edge([[0, 0], [1, 0]], "b")
+FLOOR = box("b", 0, 0, 1, 1) + fixed_edge([[0, 0], [1, 0]], "b")
+HELD_BELOW = fixed_edge([[0, 0], [1, 0]], "b")
 TWO = FLOOR + box("c", 0, 1, 1, 2)
 SOFT = 'law = "neo_hookean"'
 QUADRATIC = '[formulation.cover]\nfunctions = "monomials"\ndegree = 2\n'
