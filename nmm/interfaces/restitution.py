@@ -14,9 +14,8 @@ def restitution(damping: float) -> float:
         return float(np.exp(-damping / root * (np.pi - angle)))
     if damping == 1:
         return float(np.exp(-2.0))
-    root = np.sqrt(damping**2 - 1)
-    slow, fast = damping - root, damping + root
-    return float(np.exp(-damping / root * np.log(fast / slow)))
+    root = np.sqrt(damping - 1) * np.sqrt(damping + 1)
+    return float(np.exp(-2 * damping / root * np.log(damping + root)))
 
 
 def damping_of(coefficient: float) -> float:
@@ -25,4 +24,6 @@ def damping_of(coefficient: float) -> float:
 
     if coefficient >= 1:
         return 0.0
-    return float(brentq(lambda share: restitution(share) - coefficient, 0.0, 1e3))
+    # Beyond critical damping it is below 1 / share^2.
+    most = 1 / np.sqrt(coefficient)
+    return float(brentq(lambda share: restitution(share) - coefficient, 0.0, most))

@@ -99,8 +99,9 @@ def plain_data(value: object) -> object:
     level = [value]
     for _ in range(DEEPEST):
         for item in level:
-            if isinstance(item, float) and not abs(item) <= LARGEST:
-                raise fault(item, "a number up to 1e30", "check the number")
+            if isinstance(item, int | float) and not abs(item) <= LARGEST:
+                said = item if isinstance(item, float) else "too many digits"
+                raise fault(said, "a number up to 1e30", "check the number")
             if item is not None and not isinstance(
                 item, str | int | float | list | tuple | Mapping
             ):

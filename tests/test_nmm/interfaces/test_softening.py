@@ -138,3 +138,9 @@ def test_damping_gives_the_restitution_asked_for(wanted):
         gap += step * speed
     assert speed == pytest.approx(wanted, rel=1e-3)  # explicit Euler at 1e-5 of a period / 2 pi
     assert restitution(share) == pytest.approx(wanted, rel=1e-9)
+
+
+@pytest.mark.parametrize("wanted", [1e-6, 5e-10, 5e-16, 1e-300])
+def test_a_restitution_of_almost_nothing_has_its_damping(wanted):
+    """Far beyond critical damping it is 1 / (2 share)^2."""
+    assert damping_of(wanted) == pytest.approx(0.5 / np.sqrt(wanted), rel=1e-4)
