@@ -301,17 +301,17 @@ def torn(bonds):
 
 def test_bonds_break_once_in_a_step_that_moves_further_than_contacts_were_sought(monkeypatch):
     """The first step of a run knows no motion: it seeks to 3e-6 m, the pull is 1e-2 m."""
-    from nmm.contact.solution import driver
+    from nmm.contact.bonds import release
     from nmm.effects.base import Instant
     from nmm.stepping.prepare import prepare
 
-    broken, real = [], driver.break_bonds
+    broken, real = [], release.break_bonds
 
     def count(laws, contacts, which):
         broken.append(int(which.sum()))
         return real(laws, contacts, which)
 
-    monkeypatch.setattr(driver, "break_bonds", count)
+    monkeypatch.setattr(release, "break_bonds", count)
     simulation = prepare(torn((1e6, 1e6)), steps(1.0))
     simulation.stepper.anchored = True
     found = simulation.stepper.attempt(simulation.start, Instant(1.0, 1.0), None)
