@@ -49,6 +49,55 @@ def test_an_idle_member_makes_its_matrix_once_a_run(name, monkeypatch):
     assert len(made) == 1
 
 
+OF_CONTACT = """
+import importlib, os, sys
+sys.path.insert(0, {benchmarks!r})
+import nmm, idle_effects
+from nmm.model.effects_table import EFFECTS
+from nmm.scene.model import Scene
+
+idle_effects.CELL = 0.5
+
+def loaded_by(work):
+    end, into = os.pipe()
+    if not os.fork():
+        work()
+        os.write(into, " ".join(name for name in sys.modules if "nmm.contact" in name).encode())
+        os._exit(0)
+    os.close(into)
+    found = os.fdopen(end).read()
+    assert not os.wait()[1]
+    return found
+
+for name, place in EFFECTS.table.items():
+    print(name, loaded_by(lambda: importlib.import_module(place.partition(":")[0])), sep=": ")
+for make in (idle_effects.bar, idle_effects.still_bar):
+    print(make.__name__, loaded_by(lambda: nmm.run(Scene.model_validate(make(1)))), sep=": ")
+"""
+JOINTS = {
+    "nmm.contact",
+    *(f"nmm.contact.detection{name}" for name in ("", ".surface", ".tolerances", ".joints")),
+    *(f"nmm.contact.points{name}" for name in ("", ".side_kernels", ".boundary_points")),
+}
+"""What finds the edges that bodies share."""
+ACROSS_JOINTS = {"bonded interfaces", "artificial joints", "heat", "seepage", "consolidation"}
+ACROSS_JOINTS |= {"joint flow", "transient joint flow", "fracture"}
+"""Effects that glue, conduct or flow across such edges."""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs processes that are copied")
+def test_no_effect_but_contact_imports_contact_beyond_the_joints_that_it_crosses():
+    code = OF_CONTACT.format(benchmarks=str(BENCHMARKS))
+    answer = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert not answer.returncode, answer.stderr[-2000:]
+    lines = [line.split(": ") for line in answer.stdout.splitlines()]
+    found = {name: set(modules.split()) for name, modules in lines}
+    assert set(found) == {*EFFECTS.table, "bar", "still_bar"}
+    assert found.pop("contact") > JOINTS
+    assert {name for name, modules in found.items() if modules} == ACROSS_JOINTS
+    assert set.union(*found.values()) == JOINTS
+
+
 IMPORTS = """
 import os, sys
 sys.path.insert(0, {benchmarks!r})
