@@ -12,6 +12,7 @@ from nmm.errors import SceneError
 from nmm.scene.document import build, parse, read_text
 from nmm.scene.faults import Source
 from nmm.scene.model import Scene
+from nmm.scene.tables.loading.read_files import with_numbers
 
 
 def read_scene(path: str | Path) -> Scene:
@@ -38,11 +39,9 @@ def build_scene(tables: dict[str, Any], place: str = "scene") -> Scene:
 
 def _read_from(source: Source, scene: Scene) -> Scene:
     """Read the files that a scene names, and set its source and that of its formulation."""
-    files = [one.file for one in scene.records.values()]
-    if any([*files, *(one.file for one in scene.fields.values())]):
-        from nmm.scene.tables.loading.read_files import with_files
-
-        scene = with_files(scene, source)
+    records, fields = with_numbers(scene.records, scene.fields, source)
+    if (records, fields) != (scene.records, scene.fields):
+        scene = scene.model_copy(update={"records": records, "fields": fields})
     scene._source = source
     if scene.formulation is not None:
         scene.formulation._source = replace(source, root=("formulation",))

@@ -17,15 +17,16 @@ from nmm.scene.tables.loading.fields import check_rows
 
 if TYPE_CHECKING:
     from nmm.scene.faults import Source
-    from nmm.scene.model import Scene
     from nmm.scene.tables.loading.fields import FieldTable
     from nmm.scene.tables.shaking.records import RecordTable
 
 Table = TypeVar("Table", "RecordTable", "FieldTable")
 
 
-def with_files(scene: Scene, source: Source) -> Scene:
-    """Return a scene with the numbers of the files that it names.
+def with_numbers(
+    records: Mapping[str, RecordTable], fields: Mapping[str, FieldTable], source: Source
+) -> tuple[dict[str, RecordTable], dict[str, FieldTable]]:
+    """Return the tables of a scene, those that name files with their numbers instead.
 
     Raises
     ------
@@ -33,11 +34,13 @@ def with_files(scene: Scene, source: Source) -> Scene:
         All faults of all files, by their line and that of the scene.
     """
     faults: list[Fault | str] = []
-    records = _all("records", scene.records, _record, source, faults)
-    fields = _all("fields", scene.fields, _field, source, faults)
+    read = (
+        _all("records", records, _record, source, faults),
+        _all("fields", fields, _field, source, faults),
+    )
     if faults:
         raise SceneError(*faults)
-    return scene.model_copy(update={"records": records, "fields": fields})
+    return read
 
 
 def _all(
