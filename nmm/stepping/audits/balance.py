@@ -14,7 +14,7 @@ from nmm.stepping.drive.verdict import CONVERGED, FAILURE
 # A body counts as if it bore at least this share of what the one that bears most does.
 LIGHT = 1e-3
 # What solutions leave out of balance, of the forces that moving all there is as it moved would ask.
-LEFT = 1e-7
+UNSOLVED = 1e-7
 
 
 def balance(run: EndedRun) -> Findings:
@@ -43,9 +43,9 @@ def balance(run: EndedRun) -> Findings:
         if border is not None:
             return
         left, size = left[:, :2].sum(axis=0, keepdims=True), size.max(keepdims=True)
-    matrix, moved = plan.matrix(run.state, model.stiffness), run.state.deformation
+    matrix = plan.matrix(run.state, model.stiffness)
     rounded = gross(matrix, coordinate_rounding(model.manifold))
-    if not size.max() > max(rounded, LEFT * gross(matrix, moved)):
+    if not size.max() > max(rounded, UNSOLVED * gross(matrix, run.state.deformation)):
         return
     off = np.sqrt(np.square(left).sum(axis=1)) / np.maximum(size, LIGHT * size.max())
     at = int(np.argmax(off))

@@ -145,7 +145,13 @@ class _Following:
         return self.control.by_load or waits or not self.control.row(standing).any()
 
     def _event_within(self, at: PathState, end: TriedStep) -> TriedStep:
-        """Return where on a step the first bond is at its limit, or the trial that failed."""
+        """Return where on a step the first bond is at its limit, or the trial that failed.
+
+        Bonds that gave way last may have left more to their neighbours than these hold.
+        """
+        still = self.trials.along(at, self.control.path(at, 0.0))
+        if still.attempt.converged and still.load > 1 + ABOVE:
+            return still
         now = TriedStep(0.0, end.attempt, np.minimum(self.trials.loads(), 1.0))
         return located(lambda way: self.trials.along(at, self.control.path(at, way)), now, end)
 

@@ -28,8 +28,8 @@ TORN = text.scene(
         + 'bonded = true\nlaw = "linear_softening"\nfracture_energy = 100.0\n',
         text.block("low", "m", text.rectangle((0, 0), (1, 0.1))),
         text.block("up", "m", text.rectangle((0, 0.1), (1, 0.2))),
-        text.held_edge("base", [[0, 0], [1, 0]]),
-        text.held_edge("head", [[0, 0.2], [1, 0.2]])
+        text.fixed_edge("base", [[0, 0], [1, 0]]),
+        text.fixed_edge("head", [[0, 0.2], [1, 0.2]])
         + "displacement = [0.0, 2.6e-4]\nhistory = [[0, 0], [1, 1]]\n",
         '[formulation.cover]\ntype = "triangles"\nsize = 0.2\ndegree = 1\n',
     ],

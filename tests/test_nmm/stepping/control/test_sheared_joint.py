@@ -71,6 +71,26 @@ def test_a_joint_bears_cohesion_and_friction_and_takes_both(way: int) -> None:
     assert abs(run.summary.energy_balance or 0.0) < 1e-3
 
 
+@pytest.mark.slow  # each of ten points is an event with trials of its own
+def test_meshes_are_sheared_through_the_peak_of_a_joint_on_terms() -> None:
+    """A point that softens leaves its neighbours more than they hold: those give way at once.
+
+    Paths ended there, at 0.88 of the load, seeking a shorter and shorter way to the next event.
+    """
+    net = '[formulation.cover]\ntype = "triangles"\nsize = 0.5\ndegree = 1\n'
+    run = nmm.run(nmm.parse_scene(SHEARED.format(way=10) + LED.format(1) + net))
+    force = run.history["load_factor"]
+    assert run.summary.status == "failure_load"
+    # Cells are five times as long as the blocks are high.
+    assert force.max() == pytest.approx(COHESION + FRICTION * PRESSURE, rel=1e-2)
+    slip = 1e-3 - force[-1] * (0.5 * 0.15 + 0.1) / 5e9
+    left = COHESION * (1 - slip / WIDTH)
+    assert force[-1] == pytest.approx(left + FRICTION * PRESSURE, rel=5e-3)
+    taken = (COHESION + left) / 2 * slip + FRICTION * PRESSURE * slip
+    assert run.history["friction_loss"][-1] == pytest.approx(taken, rel=5e-3)
+    assert not run.summary.warnings
+
+
 def test_a_path_that_turns_back_by_small_steps_shows_no_limit_point() -> None:
     # Among 42 points that one after the other begin to soften each has an answer in unloading:
     # "a limit point was passed" at 308 kN, 12 % below the load, "down to" -307 kN.
