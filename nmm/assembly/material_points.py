@@ -38,6 +38,19 @@ class MaterialPoints:
             local = local + frames.tilt[self.body, None] * across
         return frames.centre[self.body] + frames.to_global(self.body, local)
 
+    def velocity(self, state: State, turning: tuple[Floats, Floats] | None) -> Floats:
+        """Return the rate (m, 2) of the current place (m/s).
+
+        ``turning`` is how fast the bodies' axes turn (B,), which carries strained points along, and
+        by how much slower (B,) than the velocity of the state says (rad/s); None where none turn.
+        """
+        local = self.rows.apply(state.velocity)
+        if turning is not None:
+            rate, slower = (one[self.body, None] for one in turning)
+            arm = rate * self.rows.apply(state.deformation) - slower * self.arm
+            local = local + counterclockwise(arm)
+        return state.frames.to_global(self.body, local)
+
     def way(self, before: State, after: State) -> Floats:
         """Return the displacement (m, 2) from one state to another (m)."""
         start = self.place(before.frames, before.deformation)

@@ -66,10 +66,26 @@ class Inertia(Effect):
         spin = self.spin(state)
         if not (self._axes_turn and some(spin)):
             return None
-        body, (turn, stretched) = self._model.manifold.unknown_body, self._turns
         half_way = state.deformation + step / 2 * state.velocity
-        stretch = np.bincount(body, stretched * half_way, len(spin))
-        return np.asarray(2 * step * (spin * stretch)[body] * turn)
+        slower = spin * self._stretch(half_way)
+        return np.asarray(step * slower[self._model.manifold.unknown_body] * self._turns[0])
+
+    def turning(self, state: State) -> tuple[Floats, Floats] | None:
+        """Return how fast axes turn (B,), and by how much slower than their spin (B,) (rad/s).
+
+        None where no axes turn.
+        """
+        spin = self.spin(state)
+        if not (self._axes_turn and some(spin)):
+            return None
+        slower = spin * self._stretch(state.deformation)
+        return spin - slower, slower
+
+    def _stretch(self, deformation: Floats) -> Floats:
+        """Return ``2 s / J0`` (B,) of the bodies with a deformation (n,)."""
+        manifold = self._model.manifold
+        parts = self._turns[1] * deformation
+        return np.asarray(2.0 * np.bincount(manifold.unknown_body, parts, manifold.n_bodies))
 
     @cached_property
     def _turns(self) -> tuple[Floats, Floats]:

@@ -40,9 +40,9 @@ class FollowedPoints:
 
     def velocities(self, state: State) -> Floats:
         """Return how fast they are (m, 2), along the global axes."""
-        vertices, frames = self.stepper.vertices, state.frames
         if not self.rigid:
-            return frames.to_global(vertices.body, vertices.rows.apply(state.velocity))
+            return self.stepper.velocity(state)
+        frames = state.frames
         rates = rigid_rates(self.stepper.model, state)
         middle, spin = rates[:, :2], rates[:, 2]
         heading = np.stack([-np.sin(frames.angle), np.cos(frames.angle)], axis=1)

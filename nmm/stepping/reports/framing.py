@@ -31,11 +31,9 @@ def framed(
     stage: str,
 ) -> Frame:
     """Return the frame of a state; ``declared`` are its quantities besides."""
-    state, manifold = view.state, view.model.manifold
+    state = view.state
     place = stepper.place(state)
     start = stepper.reference if zero.state is None else stepper.place(zero.state)
-    body = manifold.element_body[manifold.elements.polygon_of_point]
-    velocity = stepper.vertices.rows.apply(state.velocity)
     return Frame(
         index=index,
         time=state.time,
@@ -43,7 +41,7 @@ def framed(
         stage=stage,
         points=place,
         displacement=place - start,
-        velocity=state.frames.to_global(body, velocity),
+        velocity=stepper.velocity(state),
         stress=view.stress,
         **_contact_arrays(stepper, view),
         fields=declared.fields(stepper.plan, view),

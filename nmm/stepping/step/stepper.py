@@ -270,6 +270,11 @@ class Stepper:
         """Return where the elements' vertices are (P, 2)."""
         return self._steps.mover.place(state)
 
+    def velocity(self, state: State) -> Floats:
+        """Return how fast the elements' vertices are (P, 2)."""
+        inertia = self.plan.inertia
+        return self.vertices.velocity(state, None if inertia is None else inertia.turning(state))
+
     def condition(self, state: State) -> float | None:
         """Estimate the condition number of the last system, springs of contact included."""
         if self.factor is not None:
