@@ -12,7 +12,7 @@ is a particular ``C`` over the linear monomials (Shi 1988).
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -29,8 +29,14 @@ class LocalFunctions:
     ----------
     degree
         Highest total degree of the monomials, 0 to 3.
+    any_degree
+        Whether they are made in every degree, which must be given then; else in their own alone.
+    enriched
+        Whether covers about tips of cracks carry singular functions beside them unless told.
     """
 
+    any_degree: ClassVar[bool] = True
+    enriched: ClassVar[bool] = True
     degree: int
 
     def __post_init__(self) -> None:
@@ -95,6 +101,8 @@ class RigidStrain(LocalFunctions):
     ``u = u0 - r0 y + ex x + gxy y / 2``, ``v = v0 + r0 x + ey y + gxy x / 2``.
     """
 
+    any_degree: ClassVar[bool] = False
+    enriched: ClassVar[bool] = False
     degree: int = 1
 
     @property

@@ -161,7 +161,7 @@ def _cover(part: Any) -> None:
     from nmm.model.manifolds.several_meshes import net_class
 
     _known("functions", part.functions, [*FUNCTIONS])
-    if part.degree is not None or part.functions == "monomials":
+    if part.degree is not None or FUNCTIONS[part.functions].any_degree:
         from nmm.model.manifolds.covering import local_functions
 
         local_functions(part)

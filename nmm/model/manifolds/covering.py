@@ -73,7 +73,7 @@ def cover_regions(
     lines = [*cracks, *np.asarray(regions.cracks)]
     functions = local_functions(cover)
     kind = block_cover(cover)
-    if cover.regions and (kind is not None or cover.functions != "monomials"):
+    if cover.regions and (kind is not None or not functions.any_degree):
         raise FormulationError(
             f'[[cover.regions]]: with type = "{cover.type}", functions = "{cover.functions}": '
             'expected a mesh of polynomials: use type = "triangles" and functions = "monomials"'
@@ -103,11 +103,12 @@ def local_functions(cover: "CoverTable") -> LocalFunctions:
         raise FormulationError(
             f"[cover] functions: {cover.functions}: expected one of {', '.join(FUNCTIONS)}"
         )
-    if cover.functions == "monomials" and cover.degree is None:
+    if functions.any_degree and cover.degree is None:
         raise FormulationError(
-            '[cover] degree: not given: expected 0 to 3 with functions = "monomials": add degree'
+            f'[cover] degree: not given: expected 0 to 3 with functions = "{cover.functions}": add '
+            "degree"
         )
-    if cover.functions != "monomials" and cover.degree not in (None, 1):
+    if not functions.any_degree and cover.degree not in (None, 1):
         raise FormulationError(
             f'[cover] degree: {cover.degree}: expected 1 with functions = "{cover.functions}": use '
             'functions = "monomials", or leave degree out'
@@ -147,7 +148,7 @@ def _mesh(
         raise
     except ValueError as fault:
         raise FormulationError(f"[cover.enrichment] {fault}") from fault
-    kinds = functions if not cover.regions else kinds_by_region(regions, pieces, cover)
+    kinds = functions if not cover.regions else kinds_by_region(regions, pieces, cover, functions)
     found = mesh_manifold(laid, pieces, kinds, extra)
     if found.reproduction == 0:
         raise FormulationError(

@@ -1,11 +1,12 @@
 """Degrees that vary from cover to cover: ``[[cover.regions]]`` of a formulation."""
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
 
-from covers.local_functions.polynomials import Kinds, Monomials
+from covers.local_functions.polynomials import Kinds, LocalFunctions
 from integration.arrays import Bools, Floats
 from nmm.errors import FormulationError
 
@@ -15,7 +16,9 @@ if TYPE_CHECKING:
     from nmm.geometry.blocks import Regions
 
 
-def kinds_by_region(regions: "Regions", cut: "CutCells", cover: "CoverTable") -> Kinds:
+def kinds_by_region(
+    regions: "Regions", cut: "CutCells", cover: "CoverTable", functions: LocalFunctions
+) -> Kinds:
     """Return the local functions of each cover: those of the last region that holds it.
 
     Raises
@@ -35,7 +38,8 @@ def kinds_by_region(regions: "Regions", cut: "CutCells", cover: "CoverTable") ->
             )
         degree[inside] = item.degree
     degrees, which = np.unique(degree, return_inverse=True)
-    return Kinds(tuple(Monomials(one) for one in degrees.tolist()), which.ravel())
+    kinds = tuple(replace(functions, degree=one) for one in degrees.tolist())
+    return Kinds(kinds, which.ravel())
 
 
 def cover_centroids(cut: "CutCells") -> Floats:
