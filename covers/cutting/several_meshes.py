@@ -9,11 +9,11 @@ import numpy as np
 
 from covers.concatenate import concatenate, starts
 from covers.cutting.cut_cells import CutCells
-from covers.mathematical.polynomial_cover import PolynomialCover
+from covers.mathematical.base import Cover
 from integration.arrays import Ints
 
 
-def joined_cover(nets: Sequence[PolynomialCover]) -> PolynomialCover:
+def joined_cover(nets: Sequence[Cover]) -> Cover:
     """Return the cells and patches of all meshes, one after the other; they may overlap.
 
     Raises
@@ -34,7 +34,7 @@ def joined_cover(nets: Sequence[PolynomialCover]) -> PolynomialCover:
 
 
 def joined_cut(
-    nets: Sequence[PolynomialCover], cuts: Sequence[CutCells], regions: Sequence[Ints]
+    nets: Sequence[Cover], cuts: Sequence[CutCells], regions: Sequence[Ints]
 ) -> CutCells:
     """Return the cuts of all meshes as one of their joined cover, with bodies by region.
 

@@ -117,6 +117,11 @@ class Cover(CoverType, ABC):
         return self, cut
 
     @property
+    def settles(self) -> bool:
+        """Whether its patches depend on the cut, so that each cut begins with a cover laid anew."""
+        return type(self).settled is not Cover.settled
+
+    @property
     def mended(self) -> dict[str, int]:
         """Changes by `settled`, in words, with the number of patches."""
         return {}

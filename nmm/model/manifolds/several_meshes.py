@@ -12,7 +12,6 @@ from covers.cutting.cut import Cutting, cut, cutting
 from covers.cutting.cut_cells import CutCells
 from covers.cutting.several_meshes import joined_cover, joined_cut
 from covers.mathematical.base import Cover as MathematicalCover
-from covers.mathematical.polynomial_cover import PolynomialCover
 from integration.arrays import Floats, Ints
 from nmm.errors import Fault, FormulationError
 from nmm.geometry.tessellation.cover_types import COVER_TYPES
@@ -57,7 +56,7 @@ def laid_and_cut(
         blocks = regions.polygons.take(own)
         around = regions.box if net is None else blocks.points
         laid = _laid(cover, net, around)
-        if not isinstance(laid, PolynomialCover):
+        if laid.settles:
             raise ValueError(
                 f'nets: type "{cover.type}": triangles or quads expected where blocks have nets of '
                 "their own: use one of these, or remove [[cover.nets]]"
@@ -75,14 +74,14 @@ def _one_net(
         found = cut_again(before, lines)
         return LaidAndCut(found.cover, found.cells, found)
     whole = _laid(cover, None, regions.box)
-    if isinstance(whole, PolynomialCover):
-        found = cutting(whole, regions.polygons, lines)
+    found = cutting(whole, regions.polygons, lines)
+    if not whole.settles:
         return LaidAndCut(whole, found.cells, found)
 
     def again(other: MathematicalCover) -> CutCells:
         return cut(other, regions.polygons, lines)
 
-    return LaidAndCut(*whole.settled(again(whole), again))
+    return LaidAndCut(*whole.settled(found.cells, again))
 
 
 def _members(regions: "Regions", nets: "Sequence[CoverNet]") -> list[Ints]:

@@ -1,5 +1,9 @@
 """Bodies with nets of their own: the joined cut is what the cuts are, body by body."""
 
+import sys
+from dataclasses import dataclass, fields
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -7,6 +11,7 @@ from covers.approximation.mesh_manifold import mesh_manifold
 from covers.cutting.cut import cut
 from covers.cutting.several_meshes import joined_cover, joined_cut
 from covers.local_functions.polynomials import FUNCTIONS
+from covers.mathematical.base import Cover
 from covers.mathematical.quads import Quads
 from covers.mathematical.triangles import Triangles
 from integration.polygons import Polygons
@@ -14,7 +19,10 @@ from nmm.errors import FormulationError
 from nmm.formulation import parse_formulation
 from nmm.scene import parse_scene
 from nmm.stepping.prepare import prepare
+from nmm.trust import allowing
 from nmm.verification import text
+
+ME = Path(__file__).stem
 
 BLOCKS = Polygons.from_vertices(
     [text.rectangle((x, y), (x + 1, y + 1)) for x, y in ((0, 0), (1, 0), (0, 1), (1, 1))]
@@ -104,6 +112,52 @@ def test_a_formulation_gives_a_block_a_finer_net():
     found = elements('type = "quads"\n[[cover.nets]]\nblock = "top"\nsize = 0.1\n')
     assert common == pytest.approx([4, 4])
     assert found == pytest.approx([4, 100])
+
+
+@dataclass(frozen=True, eq=False)
+class Hats(Cover):
+    """Hat functions over triangles, which tell of no polynomials."""
+
+    precision = 1
+
+    @classmethod
+    def regular(cls, bounds, size, *, angle=0.0, shift=(0.0, 0.0)):
+        """Lay the cells and patches of `Triangles`."""
+        laid = Triangles.regular(bounds, size, angle=angle, shift=shift)
+        return cls(**{item.name: getattr(laid, item.name) for item in fields(Cover)})
+
+    def evaluate(self, cells, points):
+        """Return shares of areas, and the slopes of these."""
+        corner = self.vertices[self.cell_vertices[cells]]
+        slopes = np.linalg.inv(np.concatenate([np.ones((len(cells), 3, 1)), corner], axis=2))
+        weights = np.einsum("mi,mij->mj", np.column_stack([np.ones(len(points)), points]), slopes)
+        return weights, np.swapaxes(slopes[:, 1:], 1, 2)
+
+
+class Settling(Hats):
+    """The same, whose patches depend on the material."""
+
+    def settled(self, cut, again):
+        """Return what there is."""
+        return self, cut
+
+
+@pytest.fixture(name="allowed")
+def _allowed(monkeypatch):
+    monkeypatch.setitem(sys.modules, ME, sys.modules[__name__])
+    with allowing(ME):
+        yield
+
+
+def test_blocks_have_nets_of_ones_own_cover(allowed):
+    net = '[[cover.nets]]\nblock = "top"\nsize = 0.1\n'
+    found = elements(f'type = "{ME}:Hats"\n{net}')
+    assert np.array_equal(found, elements(f'type = "triangles"\n{net}'))
+
+
+def test_blocks_have_no_nets_of_ones_own_cover_that_depends_on_the_material(allowed):
+    with pytest.raises(FormulationError, match="triangles or quads expected"):
+        elements(f'type = "{ME}:Settling"\n[[cover.nets]]\nblock = "top"\n')
 
 
 @pytest.mark.parametrize(
