@@ -14,7 +14,7 @@ from nmm.assembly.errors import Field, FieldErrors, field_errors, stresses
 from nmm.assembly.model import Model
 from nmm.assembly.places import Place, at_point, on_edges
 from nmm.assembly.state import initial_state
-from nmm.constraints.imposition import Imposition, Method
+from nmm.constraints.imposition import Imposition, support_method
 from nmm.constraints.interface import Interface
 from nmm.constraints.springs import Springs
 from nmm.constraints.supports import Supports
@@ -168,10 +168,10 @@ def edge_support(
     displacement: Field | None = None,
     axes: tuple[bool, bool] = (True, True),
 ) -> Imposition:
-    """Hold Gauss points of edges as the formulation says, Nitsche's way when it says nothing."""
+    """Hold Gauss points of edges as the formulation says."""
     values = np.zeros(2) if displacement is None else displacement(place.position)
-    kind = "nitsche" if formulation.supports.method == "auto" else formulation.supports.method
-    method = Method(kind, formulation.cover.size, degree(formulation))
+    size = formulation.cover.size
+    method = support_method(model, formulation.supports, size, degree(formulation))
     return method.hold(model, place, lambda end: values, axes)
 
 
