@@ -1,7 +1,8 @@
 """Artificial joints (Ke 1996): permanent ties between the sub-blocks of a block.
 
-Springs, or Nitsche's terms. They act at points of the material, so that a uniform traction stays
-uniform whatever the degree of the functions; there is no state and nothing to iterate.
+Springs, or another method that glue may have. They act at points of the material, so that a uniform
+traction stays uniform whatever the degree of the functions; there is no state and nothing to
+iterate.
 """
 
 from typing import Self
@@ -11,7 +12,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
-from nmm.constraints.imposition import Imposition, Method
+from nmm.constraints.imposition import IMPOSITIONS, Imposition, Method
 from nmm.constraints.interface import Interface
 from nmm.constraints.laid_springs import laid_under_stress
 from nmm.constraints.nitsche.linear_matter import check_linear
@@ -61,14 +62,15 @@ class ArtificialJoints(TiedInterfaces):
         degree = model.manifold.degree
         if not len(joints):  # blocks that are not divided
             return []
-        if glue.kind == "nitsche":
-            check_linear(model, "[cover.options] glue", 'glue = "springs"')
+        if glue.method is not None:
+            if IMPOSITIONS.load(glue.method).reads_stress:
+                check_linear(model, "[cover.options] glue", 'glue = "springs"')
             interface = gauss_interface(model, joints, 2 * degree)
-            tie = Method(glue.kind, None, degree).impose(model, [interface])[0]
+            tie = Method(glue.method, None, degree).impose(model, [interface])[0]
             if tie.free.any():
                 raise FormulationError(
-                    '[cover.options] glue: "nitsche": with functions without strain: expected '
-                    'functions with strain: use glue = "springs"'
+                    f'[cover.options] glue: "{glue.method}": with functions without strain: '
+                    'expected functions with strain: use glue = "springs"'
                 )
             return [tie]
         if degree > 1 or joint_rule == "gauss":

@@ -1,7 +1,7 @@
 """Covers that lie over one block each, or over one piece of a block: discontinuous deformation."""
 
 from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import ClassVar
 
 import numpy as np
 
@@ -16,13 +16,14 @@ class PieceGlue:
 
     Attributes
     ----------
-    kind
-        Springs, or Nitsche's terms, which give by nothing.
+    method
+        The name of a method that glue may have, such as "nitsche", whose terms give by nothing;
+        None is springs.
     stiffness
         Springs in Young's moduli over the distance of the pieces' middles.
     """
 
-    kind: Literal["springs", "nitsche"] = "springs"
+    method: str | None = None
     stiffness: float = 100.0
 
 

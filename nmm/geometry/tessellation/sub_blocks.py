@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, cast
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -57,7 +57,8 @@ class SubBlocks(BlockCover):
 
     @property
     def piece_glue(self) -> PieceGlue | None:
-        return PieceGlue(cast(Any, self.glue), self.stiffness) if self.bond == "elastic" else None
+        method = None if self.glue == "springs" else self.glue
+        return PieceGlue(method, self.stiffness) if self.bond == "elastic" else None
 
     def divided(
         self, blocks: Polygons, size: float | None, angle: float, shift: tuple[float, float]

@@ -11,6 +11,8 @@ import pytest
 
 import nmm
 from integration.polygons import Polygons
+from nmm.constraints.imposition import Imposition
+from nmm.constraints.interface import product
 from nmm.errors import NmmError
 from nmm.formulation import Formulation
 from nmm.geometry.tessellation.block_cover import BlockCover, PieceGlue, WholeBlocks
@@ -79,6 +81,44 @@ class Courses(BlockCover):
         return PieceGlue("nitsche")
 
 
+STIFFNESS = 1e9  # Pa/m
+
+
+@dataclass(frozen=True)
+class Carpet(Imposition):
+    """Springs of 1 GPa/m."""
+
+    @classmethod
+    def of(cls, model, interface, method):
+        """See `Imposition.of`."""
+        return cls(interface)
+
+    def matrix(self, state):
+        """See `Imposition.matrix`."""
+        unknowns, rows = self.interface.rows(state)
+        return product(
+            (unknowns, rows), (unknowns, STIFFNESS * self.interface.area[:, None, None] * rows)
+        )
+
+    def point_forces(self, state, jump):
+        """See `Imposition.point_forces`."""
+        return -STIFFNESS * self.interface.area[:, None] * jump
+
+    def force(self, state, jump):
+        """See `Imposition.force`."""
+        return self.interface.spread(state, self.point_forces(state, jump))
+
+
+@dataclass(frozen=True)
+class Carpeted(Courses):
+    """Courses on a method of glue that is defined here too."""
+
+    @property
+    def piece_glue(self):
+        """See `BlockCover.piece_glue`."""
+        return PieceGlue(f"{ME}:Carpet")
+
+
 @pytest.fixture(autouse=True)
 def importable(monkeypatch):
     monkeypatch.setitem(sys.modules, ME, sys.modules[__name__])
@@ -134,6 +174,13 @@ def test_blocks_divided_and_glued_by_ones_own_cover_shorten_as_a_column(lowest, 
     shorter = done.history["monitor:sole:uy"][-1] - done.history["monitor:head:uy"][-1]
     # p h / E = 4e6 * 3 / 2e9, to rounding: Nitsche's terms give by nothing.
     assert shorter == pytest.approx(6e-3, rel=1e-9)
+
+
+def test_pieces_are_held_by_a_method_of_glue_of_ones_own():
+    done = run(PRESSED, {"type": f"{ME}:Carpeted", "size": 0.5})
+    shorter = done.history["monitor:sole:uy"][-1] - done.history["monitor:head:uy"][-1]
+    # Five joints that give by 4e6 Pa / 1e9 Pa/m each, on the column's own 6e-3.
+    assert shorter == pytest.approx(6e-3 + 5 * 4e-3, rel=1e-9)
 
 
 @pytest.mark.parametrize(
