@@ -154,7 +154,7 @@ THRESHOLDS: dict[str, Threshold] = {
         "largest mean strain of an element where a run ends, in any direction",
         0.1,
         None,
-        'contact, unless `[rotation] update = "finite"`',
+        'contact, and bodies that turned in dynamics, unless `[rotation] update = "finite"`',
     ),
     "kept_whole": Threshold(
         "largest share of its strength that a block uses where a run ends, and splits no more",

@@ -71,6 +71,22 @@ def test_strains_beyond_a_tenth_are_told_with_block_and_place(pull):
     assert [warning.split(";")[0] for warning in found.warnings] == told
 
 
+@pytest.mark.parametrize("peak", [0.099, 0.2])
+def test_strains_beyond_a_tenth_of_what_spins_are_told_without_contact(peak):
+    """A square that is spun swells by ``rho omega^2 a^2 / (6 E)``, within half a swing."""
+    spin, density = 20.0, 2000.0
+    modulus, swing = density * spin**2 / (6 * peak), np.sqrt(2 * spin**2 / peak)
+    scene = (
+        FREE.replace("young_modulus = 1e7", f"young_modulus = {modulus!r}")
+        .replace("angular_velocity = 2.0", f"angular_velocity = {spin!r}")
+        .replace("duration = 0.1", f"duration = {float(np.pi / swing)!r}")
+    )
+    found = run(scene, integrator={"type": "newmark", "step": 2e-4})
+    assert found.audits["large_strain"] == pytest.approx(peak, rel=1e-4)  # of the steps
+    told = any("large_strain" in one and "finite" in one for one in found.warnings)
+    assert told == (peak > 0.1)
+
+
 def test_energy_that_a_coarse_step_loses_is_told_with_a_step_that_keeps_it():
     # Soft springs, so that the steps that resolve them are not too many.
     shorter, contact = DROP.replace("0.5\n", "0.3\n"), {"normal_penalty": 0.5}
