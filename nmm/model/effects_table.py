@@ -10,6 +10,7 @@ from pydantic import ValidationError
 
 from nmm.effects.base import Effect, Setup
 from nmm.errors import Fault, FormulationError, NmmError, SceneError
+from nmm.model.called_for import CALLS
 from nmm.model.origin import shifted
 from nmm.registry import Registry
 from nmm.scene.fields import Frozen
@@ -85,7 +86,7 @@ def own_effect(scene: "Scene", name: str) -> tuple[type[Effect], Frozen]:
 
     table = scene.effects[name]
     if table.type in EFFECTS.table:
-        remedy = "built-in effects have tables of their own, as [gravity]: name that"
+        remedy = f"built-in effects have tables of their own: write {_table_of(table.type)}"
         fault = Fault("type", f'"{table.type}"', 'an effect of your own, "module:Class"', remedy)
         raise FormulationError(fault)
     kind = OWN_EFFECTS.load(table.type)
@@ -94,6 +95,11 @@ def own_effect(scene: "Scene", name: str) -> tuple[type[Effect], Frozen]:
         return kind, kind.Table.model_validate(table.given)
     except ValidationError as error:
         raise SceneError(*report(error, kind.Table, source)) from None
+
+
+def _table_of(name: str) -> str:
+    """Return in words what calls for a built-in effect."""
+    return "[formulation.glue]" if name == GLUE else CALLS[name].key
 
 
 def with_table(setup: Setup, effect: str) -> Setup:

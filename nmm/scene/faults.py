@@ -16,6 +16,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
 from nmm.errors import Fault, shown
+from nmm.scene.expected import expected
 from nmm.scene.lines import Path, line_numbers
 
 
@@ -98,13 +99,14 @@ def _fault(detail: Any, model: type[BaseModel], source: Source) -> Fault:
         known = [name for name, _ in _keys(parent)]
         remedy = suggestion(str(path[-1]), known)
         return Fault(place, f'unknown key "{path[-1]}"', "a known key", remedy)
-    expected = (info.description if info else None) or detail["msg"]
+    wanted = (expected(info, path) if info else "") or detail["msg"]
     key = next((part for part in reversed(path) if isinstance(part, str)), "value")
-    table = re.search(r"\[+[\w.]+\]+", expected)
+    table = re.search(r"\[+[\w.]+\]+", wanted)
     sample = table[0] if table else f"{key} = {_sample(info)}"
-    if kind == "missing":
-        return Fault(place, "missing", expected, f"add {sample}")
-    return Fault(place, shown(detail["input"]), expected, f"write for example {sample}")
+    if kind == "missing" and isinstance(path[-1], str):
+        return Fault(place, "missing", wanted, f"add {sample}")
+    value = "missing" if kind == "missing" else shown(detail["input"])
+    return Fault(place, value, wanted, f"write for example {sample}")
 
 
 def _at(model: type[BaseModel], path: Path) -> tuple[type[BaseModel], FieldInfo | None]:

@@ -173,7 +173,12 @@ class Coordinates:
 
 
 # A place. A direction or a displacement is a pair of lengths.
-Point = Annotated[tuple[Coordinate, Coordinate], BeforeValidator(_listed), Coordinates()]
+Point = Annotated[
+    tuple[Coordinate, Coordinate],
+    BeforeValidator(_listed),
+    Coordinates(),
+    Field(description="a point [x, y] in m"),
+]
 Segment = Annotated[tuple[Point, Point], BeforeValidator(_listed)]
 Ring = Annotated[
     tuple[Point, ...], BeforeValidator(_listed), Field(min_length=3), AfterValidator(_ring)
@@ -195,7 +200,8 @@ TableName = Annotated[str, Field(pattern=rf"^[^{_STRANGE}]+$", description=NAME)
 Text = Annotated[str, Field(pattern=r"^[^\p{Cc}\p{Zl}\p{Zp}]*$")]
 Prose = Annotated[str, Field(pattern=r"^([^\p{Cc}\p{Zl}\p{Zp}]|[\n\t])*$")]
 # A registry name, or "module:Name" for a part of one's own.
-PartName = Annotated[str, Field(pattern=r"^[A-Za-z_]\w*$|^[A-Za-z_][\w.]*:[A-Za-z_]\w*$")]
+PART_NAME = r"^[A-Za-z_]\w*$|^[A-Za-z_][\w.]*:[A-Za-z_]\w*$"
+PartName = Annotated[str, Field(pattern=PART_NAME)]
 Options = Annotated[dict[str, Any], BeforeValidator(plain_data)]
 
 

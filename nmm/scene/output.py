@@ -57,9 +57,9 @@ class OutputTable(Frozen):
     )
     events: tuple[Event, ...] = Field(
         default=(),
-        description='a list of "first_contact", "first_slip", "bond_breaks", "state_changes" (of '
-        "the number of contact points that stick, slide, hold or are broken) and "
-        '"shape_changes" (blocks divide): the step after which it is so is stored',
+        description='a list of "first_contact", "first_slip", "bond_breaks", "state_changes" and '
+        '"shape_changes": the step after which it is so is stored; states are how many contact '
+        "points stick, slide, hold and are broken, shapes change where blocks divide",
         examples=[["first_contact", "bond_breaks"]],
     )
     quantities: tuple[PartName, ...] = Field(

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator, ConfigDict, Field
 
-from nmm.scene.fields import Frozen, PartName, plain_data
+from nmm.scene.fields import PART_NAME, Frozen, plain_data
 
 
 class EffectTable(Frozen):
@@ -15,7 +15,9 @@ class EffectTable(Frozen):
     model_config = ConfigDict(extra="allow")
     __pydantic_extra__: dict[str, Annotated[Any, BeforeValidator(plain_data)]] = Field(init=False)
 
-    type: PartName = Field(
+    # Names of built-in effects have blanks: they are refused with what calls for them.
+    type: str = Field(
+        pattern=rf"{PART_NAME}|^[a-z ]+$",
         description='"module:Class" of an effect of one\'s own, or the name of an installed one',
         examples=["foundation:Winkler"],
     )

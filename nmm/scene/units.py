@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import pint
 
+_UNIT = re.compile(r"(?:[\w\s*/^()%‰°℃·-]|(?<=\d)\.(?=\d))+")
+"""What units are written with: pint passes over other marks, and reads "s." as s."""
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
 
 # SI unit -> unit -> factor; a test compares every entry with pint.
@@ -115,6 +117,9 @@ def _by_pint(number: str, name: str, unit: str) -> float:
 
     registry = _registry()
     expected = "a quantity" if unit == "any" else f"a quantity that converts to {unit}"
+    unknown = UnitError(expected, f"{name!r} is no unit; {_similar(name, unit)}")
+    if _UNIT.fullmatch(name) is None:
+        raise unknown
     try:
         quantity = registry.Quantity(float(number), name)
         si = quantity.to_base_units() if unit == "any" else quantity.to(unit)
@@ -123,7 +128,7 @@ def _by_pint(number: str, name: str, unit: str) -> float:
         remedy = f"{name} has the dimension {found}; {_advice(unit)}"
         raise UnitError(expected, remedy) from None
     except Exception:  # pint raises tokenizer, attribute and type errors on malformed units
-        raise UnitError(expected, f"{name!r} is no unit; {_similar(name, unit)}") from None
+        raise unknown from None
     if unit not in ("any", "1"):
         _refuse_other_angle(quantity, name, unit, expected)
     return float(si.magnitude)

@@ -172,9 +172,18 @@ def test_an_effect_of_ones_own_needs_the_users_word():
         nmm.run(nmm.read_scene(RAFT), allow_code=["steepness"])
 
 
-def test_a_builtin_effect_has_no_table_of_ones_own():
-    text = RAFT.read_text().replace('"foundation:Winkler"', '"gravity"', 1)
-    with pytest.raises(nmm.NmmError, match="built-in effects have tables of their own"):
+@pytest.mark.parametrize(
+    ("name", "key"),
+    [
+        ("gravity", "[gravity]"),
+        ("body loads", '[[loads]] of kind "body"'),
+        ("artificial joints", "[formulation.glue]"),
+    ],
+)
+def test_a_builtin_effect_has_no_table_of_ones_own(name, key):
+    text = RAFT.read_text().replace('"foundation:Winkler"', f'"{name}"', 1)
+    told = f"built-in effects have tables of their own: write {key}"
+    with pytest.raises(nmm.NmmError, match=re.escape(told)):
         nmm.run(nmm.parse_scene(text), allow_code=CODE)
 
 

@@ -111,8 +111,8 @@ class Material(Frozen):
     )
     match: Literal["plane_strain", "compression", "extension"] | None = Field(
         default=None,
-        description='where the cone of "drucker_prager" meets Mohr-Coulomb: "plane_strain" if not '
-        'given, triaxial "compression" or "extension"',
+        description='"plane_strain", "compression" or "extension": where the cone of '
+        '"drucker_prager" meets Mohr-Coulomb, the last two triaxial; plane_strain if not given',
         examples=["compression"],
     )
     viscosity: Annotated[float, quantity("Pa s")] | None = Field(

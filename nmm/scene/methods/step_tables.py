@@ -31,13 +31,13 @@ class IntegratorTable(PartTable):
         default=None,
         ge=1e-7,
         le=0.3,
-        description='with step = "auto": what a cycle of vibration may err by, in places and '
-        "speeds, as a share of the largest in the run, from 1e-7 to 0.3; 0.01 by default",
+        description='a number from 1e-7 to 0.3, with step = "auto": what a cycle of vibration may '
+        "err by, in places and speeds, as a share of the largest in the run; 0.01 by default",
         examples=[1e-3],
     )
     error_of: Literal["auto", "points", "bodies"] | None = Field(
         default=None,
-        description='with step = "auto": "auto", "points" or "bodies": whose places and speeds are '
+        description='"auto", "points" or "bodies", with step = "auto": whose places and speeds are '
         "compared, of all points, or of bodies as if rigid, so that waves within them do not "
         "count; auto is bodies where blocks of one element may touch, else points",
         examples=["bodies"],
@@ -45,14 +45,14 @@ class IntegratorTable(PartTable):
     shortest: Time | None = Field(
         default=None,
         gt=0,
-        description='with step = "auto": a step in s, > 0, that is taken whatever it errs by; '
-        "1e-7 of the duration by default",
+        description='a step in s, > 0, with step = "auto": it is taken whatever it errs by; 1e-7 '
+        "of the duration by default",
         examples=["1 us"],
     )
     longest: Time | None = Field(
         default=None,
         gt=0,
-        description='with step = "auto": a step in s, > 0, that none exceeds; a tenth of the '
+        description='a step in s, > 0, with step = "auto": none exceeds it; a tenth of the '
         "duration by default",
         examples=["10 ms"],
     )

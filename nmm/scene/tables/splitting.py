@@ -55,7 +55,7 @@ class SplittingTable(Frozen):
     )
     judged_at: Literal["centroid", "elements"] = Field(
         default="centroid",
-        description='"centroid": a block is judged, and splits, at its middle; "elements": at '
+        description='"centroid" or "elements": a block is judged, and splits, at its middle, or at '
         "the one of its elements that is nearest to its strength",
         examples=["elements"],
     )

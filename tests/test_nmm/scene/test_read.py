@@ -3,13 +3,17 @@
 import json
 import math
 import pickle
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any, Literal, get_args, get_origin
 
 import pytest
+from pydantic import BaseModel
 
 from nmm.errors import SceneError
 from nmm.scene import Scene, canonical_text, json_schema, parse_scene, read_scene, scene_hash
 from nmm.scene.actions import GravityTable
+from nmm.scene.expected import expected
 from nmm.scene.matter.materials import Material
 from nmm.scene.solids import Block
 
@@ -131,7 +135,14 @@ def test_all_faults_are_reported_at_once_with_line_value_and_remedy() -> None:
         ('name = "beam"', 'name = "beam.1"', (":13:", "beam.1", 'without "."')),
         ('plane = "stress"', "", ("s.toml: plane: missing", "add plane = ")),
         ('plane = "stress"', 'plane = "stress', (":2:", "TOML")),
-        ("vertices = [[0, 0], [", "vertices = [[0, 0, 0], [", (":15:", "vertices.0", "[x, y]")),
+        (
+            "vertices = [[0, 0], [",
+            "vertices = [[0, 0, 0], [",
+            (":15:", "0]: expected a point [x, y]"),
+        ),
+        ('fix = ["x", "y"]', 'fix = ["z"]', ('expected "x" or "y": write',)),
+        ("vertices = [[0, 0], [", "vertices = [[0], [", ("0.1: missing: expected a number in m",)),
+        ("[contact]", '[contact]\n[output]\nevents = "all"', ('and "shape_changes": write',)),
     ],
 )
 def test_a_bad_value_is_one_line_with_place_and_remedy(
@@ -263,3 +274,26 @@ def test_degrees_without_their_unit_are_no_angles(more):
     for angle in (30, 35.0, '"361 deg"'):
         with pytest.raises(SceneError, match="expected an angle within a whole turn.*30 deg"):
             parse_scene(GOOD + more.format(angle=angle))
+
+
+def _described(model: type[BaseModel], seen: set[type[BaseModel]]) -> Iterator[tuple[str, Any]]:
+    for name, info in model.model_fields.items() if model not in seen else ():
+        seen.add(model)
+        yield f"{model.__name__}.{name}", info
+        for inner in _within(info.annotation):
+            if isinstance(inner, type) and issubclass(inner, BaseModel):
+                yield from _described(inner, seen)
+
+
+def _within(annotation: Any) -> Iterator[Any]:
+    yield annotation
+    for one in get_args(annotation):
+        yield from _within(one)
+
+
+def test_faults_of_choices_name_every_choice() -> None:
+    for name, info in _described(Scene, set()):
+        kinds = [one for one in _within(info.annotation) if get_origin(one) is Literal]
+        words = [word for kind in kinds for word in get_args(kind)]
+        said = expected(info, (name,))
+        assert [word for word in words if str(word) not in said] == [], (name, said)

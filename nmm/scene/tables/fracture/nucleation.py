@@ -20,8 +20,8 @@ class NucleationTable(Frozen):
 
     criterion: Literal["strength", "coupled"] = Field(
         default="strength",
-        description='"strength": the mean over one length reaches the strength; "coupled": over a '
-        "length at which a crack frees what its faces take, too, and which it then has",
+        description='"strength" or "coupled": the mean reaches the strength over one length, or '
+        "over a length at which a crack frees what its faces take, too, and which it then has",
         examples=["coupled"],
     )
 

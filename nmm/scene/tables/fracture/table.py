@@ -59,22 +59,22 @@ class FractureTable(Frozen):
     )
     control: Literal["loads", "toughness"] = Field(
         default="loads",
-        description='"loads": these grow as [loading] says, and cracks under them; "toughness": '
-        "the load factor is that at which the most critical tip is at its toughness, piece by "
+        description='"loads" or "toughness": loads grow as [loading] says, and cracks under them, '
+        "or the load factor is that at which the most critical tip is at its toughness, piece by "
         "piece",
         examples=["toughness"],
     )
     speed: Literal["freund", "rayleigh"] | None = Field(
         default=None,
-        description='in motion: "freund", the default, c_R (1 - G_c / G); "rayleigh": c_R, the '
-        "speed of Rayleigh's wave, as soon as a tip is critical",
+        description='"freund" or "rayleigh", in motion: c_R (1 - G_c / G), the default, or c_R, '
+        "the speed of Rayleigh's wave, as soon as a tip is critical",
         examples=["rayleigh"],
     )
     branching: Angle | None = Field(
         default=None,
         gt=0,
         le=1.0472,
-        description="in motion: an angle in rad, > 0, by which branches leave to either side where "
+        description="an angle in rad, > 0, in motion: branches leave by it to either side where "
         "a tip divides in two; that is where G reaches twice the fracture energy",
         examples=["25 deg"],
     )

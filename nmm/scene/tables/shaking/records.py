@@ -56,8 +56,9 @@ class RecordTable(Frozen):
     )
     baseline: Literal["none", "velocity", "displacement"] = Field(
         default="none",
-        description='"none"; "velocity": a constant is taken from the acceleration so that the '
-        'motion ends at rest; "displacement": a line, so that it ends at rest where it began',
+        description='"none", "velocity" or "displacement": what is taken from the acceleration, a '
+        "constant so that the motion ends at rest, or a line so that it ends at rest where it "
+        "began",
         examples=["displacement"],
     )
 
