@@ -150,11 +150,15 @@ class StressPoints:
 
     def means(self, values: Floats) -> tuple[Ints, Floats]:
         """Return the elements (k,) that have points and the means (k, h) of values (Q, h)."""
+        elements, averaging = self._averaging
+        return elements, averaging @ values
+
+    @cached_property
+    def _averaging(self) -> tuple[Ints, csr_array]:
+        """The elements (k,) that have points, and the matrix (k, Q) of means over each."""
         elements, place = np.unique(self.rule.owner, return_inverse=True)
-        weights = self.rule.weights
-        area = np.bincount(place, weights)
-        sums = [np.bincount(place, weights * column) for column in values.T]
-        return elements, np.stack(sums, axis=1) / area[:, None]
+        share = self.rule.weights / np.bincount(place, self.rule.weights)[place]
+        return elements, csr_array((share, (place, np.arange(len(place)))))
 
 
 def nearest(rule: PointRule, elements: Ints, points: Floats) -> Ints:

@@ -11,6 +11,7 @@ BEYOND = 1e-10
 VOLUME = np.array([1.0, 1.0, 0.0])
 # From strain (xx, yy, 2 xy) to the deviatoric strain (xx, yy, xy) where nothing strains along z.
 DEVIATOR = np.array([[2 / 3, -1 / 3, 0.0], [-1 / 3, 2 / 3, 0.0], [0.0, 0.0, 0.5]])
+NORMAL = np.array([1.0, 1.0, 0.0, 1.0])
 # Components xy count twice in the norm of a tensor (xx, yy, xy, zz).
 TWICE = np.array([1.0, 1.0, 2.0, 1.0])
 
@@ -47,21 +48,21 @@ def radial_return(
     shear, bulk = e / 2 / (1 + nu), e / 3 / (1 - 2 * nu)
     elastic = np.column_stack([strain, np.zeros(len(strain))]) - plastic
     elastic[:, 2] /= 2
-    volume = elastic[:, [0, 1, 3]].sum(axis=1)
-    trial = 2 * shear * (elastic - volume[:, None] / 3 * np.array([1, 1, 0, 1]))
-    norm = np.sqrt((TWICE * trial**2).sum(axis=1))
+    volume = elastic @ NORMAL
+    trial, mean = 2 * shear * (elastic - np.outer(volume / 3, NORMAL)), bulk * volume
+    norm = np.sqrt(trial**2 @ TWICE)
     size = np.sqrt(1.5) * norm
     limit = yields + hardens * accumulated
     flows = size > limit * (1 + BEYOND)
     elastic_tangent = bulk * np.outer(VOLUME, VOLUME) + 2 * shear * DEVIATOR
     if not flows.any():
-        stress = trial + bulk * volume[:, None] * np.array([1, 1, 0, 1])
+        stress = trial + np.outer(mean, NORMAL)
         tangent = np.broadcast_to(elastic_tangent, (len(strain), 3, 3))
         return RadialReturn(stress, tangent, plastic, accumulated)
     more = np.where(flows, (size - limit) / (3 * shear + hardens), 0.0)
     way = trial / np.where(norm > 0, norm, 1.0)[:, None]
     left = 1 - 3 * shear * more / np.where(flows, size, 1.0)
-    stress = left[:, None] * trial + bulk * volume[:, None] * np.array([1, 1, 0, 1])
+    stress = left[:, None] * trial + np.outer(mean, NORMAL)
     grown = plastic + np.sqrt(1.5) * more[:, None] * way * TWICE
     softer = np.where(flows, 3 * shear / (3 * shear + hardens) - (1 - left), 0.0)
     along = way[:, :3]

@@ -9,6 +9,7 @@ from one side however long the step.
 
 from abc import abstractmethod
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -72,7 +73,7 @@ class Viscous(Elastic):
 
     def stiffness(self, plane: str) -> Floats:
         """Return the plane stiffness of an instant."""
-        return _tangent(self.stiff(0.0), self.bulk, _across(self.stiff(0.0), self.bulk, plane))
+        return _of_step(self, plane, 0.0)[:3, :3].T
 
     @property
     def swells(self) -> bool:
@@ -86,40 +87,51 @@ class Viscous(Elastic):
         }
 
     def update(self, strain: Floats, history: History, plane: str, step: float) -> Response:
-        spring, moduli, times = self.branches
-        stiff, before = self.stiff(step), history["strain_deviator"]
-        old = history["branch_stress"].reshape(len(strain), len(times), 4)
-        kept = old * np.exp(-step / times)[:, None]
-        known = 2 * spring * before + kept.sum(axis=1) - 2 * stiff * before
-        share = _across(stiff, self.bulk, plane)
-        swelling: float | Floats = 0.0
+        known = [strain, history["strain_deviator"], history["branch_stress"]]
         if "swelling" in history:
-            strain = strain - history["swelling"] * MEAN[:3]
-            swelling = 0.0 if plane == "stress" else history["swelling"][:, 0]
-        across = share * (strain[:, 0] + strain[:, 1]) - swelling
-        if plane == "stress":
-            across = across - known[:, 3] / (4 / 3 * stiff + self.bulk)
-        whole = np.column_stack([strain, across])
-        shape = whole @ SHAPE
-        mean = self.bulk * (whole @ MEAN)
-        stress = known + 2 * stiff * shape + mean[:, None] * MEAN
-        gains = (2 * moduli * _share(step / times))[:, None] * (shape - before)[:, None, :]
+            known.append(history["swelling"])
+        given, matrix = np.concatenate(known, axis=1), _of_step(self, plane, step)
+        found = given @ matrix[: given.shape[1]]
         variables = {
-            "strain_deviator": shape,
-            "branch_stress": (kept + gains).reshape(len(strain), 4 * len(times)),
-            "stress_zz": stress[:, 3:],
+            "strain_deviator": found[:, 4:8],
+            "branch_stress": found[:, 8:],
+            "stress_zz": found[:, 3:4],
         }
-        tangent = np.broadcast_to(_tangent(stiff, self.bulk, share), (len(strain), 3, 3))
-        return Response(stress[:, :3], tangent, variables)
+        tangent = np.broadcast_to(matrix[:3, :3].T, (len(strain), 3, 3))
+        return Response(found[:, :3], tangent, variables)
 
     def energy(self, stress: Floats, history: History, plane: str) -> Floats:
         """Return what volume and springs store (J/m3)."""
-        spring, moduli, times = self.branches
+        spring, moduli, _ = self.branches
         mean = (stress[:, 0] + stress[:, 1] + history["stress_zz"][:, 0]) / 3
-        shape = (TWICE * history["strain_deviator"] ** 2).sum(axis=1)
-        branch = history["branch_stress"].reshape(len(stress), len(times), 4)
-        delayed = (TWICE * branch**2).sum(axis=2) @ (1 / 4 / moduli)
+        shape = history["strain_deviator"] ** 2 @ TWICE
+        delayed = history["branch_stress"] ** 2 @ np.outer(1 / 4 / moduli, TWICE).ravel()
         return np.asarray(mean**2 / 2 / self.bulk + spring * shape + delayed)
+
+
+@lru_cache(maxsize=16)
+def _of_step(law: Viscous, plane: str, step: float) -> Floats:
+    """Return what a step (s) makes of a strain and of what the law remembers, which is linear.
+
+    A matrix from strain (3), its deviator before (4), stress of k branches (4 k) and swelling (1)
+    to stress (4), deviator (4) and stress of branches (4 k): the answer to one of each at a time.
+    """
+    spring, moduli, times = law.branches
+    stiff, n = law.stiff(step), len(times)
+    strain, before, old, swelling = np.split(np.eye(8 + 4 * n), [3, 7, 7 + 4 * n], axis=1)
+    kept = old.reshape(len(old), n, 4) * np.exp(-step / times)[:, None]
+    known = 2 * spring * before + kept.sum(axis=1) - 2 * stiff * before
+    strain = strain - swelling * MEAN[:3]
+    if plane == "strain":  # what swells is held across
+        across = -swelling[:, 0]
+    else:
+        pressed = (2 / 3 * stiff - law.bulk) * (strain[:, 0] + strain[:, 1])
+        across = (pressed - known[:, 3]) / (4 / 3 * stiff + law.bulk)
+    whole = np.column_stack([strain, across])
+    shape = whole @ SHAPE
+    stress = known + 2 * stiff * shape + law.bulk * np.outer(whole @ MEAN, MEAN)
+    gains = (2 * moduli * _share(step / times))[:, None] * (shape - before)[:, None]
+    return np.hstack([stress, shape, (kept + gains).reshape(len(old), 4 * n)])
 
 
 def above_zero(**constants: float) -> None:
@@ -133,14 +145,3 @@ def _share(ratio: Floats) -> Floats:
     """Return ``(1 - exp(-r)) / r`` of steps over times (k,)."""
     some = ratio > 0
     return np.where(some, -np.expm1(-ratio) / np.where(some, ratio, 1.0), 1.0)
-
-
-def _across(stiff: float, bulk: float, plane: str) -> float:
-    """Return how strain across grows with ``xx + yy`` where nothing holds it, else 0."""
-    return 0.0 if plane == "strain" else (2 / 3 * stiff - bulk) / (4 / 3 * stiff + bulk)
-
-
-def _tangent(stiff: float, bulk: float, across: float) -> Floats:
-    """Return the plane matrix (3, 3) of two moduli."""
-    solid = 2 * stiff * SHAPE + bulk * np.outer(MEAN, MEAN)
-    return np.asarray(solid[:3, :3] + across * np.outer(solid[:3, 3], MEAN[:3]))
