@@ -45,7 +45,8 @@ def balance(run: EndedRun) -> Findings:
         left, size = left[:, :2].sum(axis=0, keepdims=True), size.max(keepdims=True)
     matrix = plan.matrix(run.state, model.stiffness)
     rounded = gross(matrix, coordinate_rounding(model.manifold))
-    if not size.max() > max(rounded, UNSOLVED * gross(matrix, run.state.deformation)):
+    torn = LIGHT * run.recorder.totals.borne  # contacts bore far more before
+    if not size.max() > max(rounded, min(torn, UNSOLVED * gross(matrix, run.state.deformation))):
         return
     off = np.sqrt(np.square(left).sum(axis=1)) / np.maximum(size, LIGHT * size.max())
     at = int(np.argmax(off))

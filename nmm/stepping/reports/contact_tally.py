@@ -52,6 +52,7 @@ def tallied(
         ways=max(totals.ways, ways),
         alike=after.load_factor if ways > 1 and totals.alike is None else totals.alike,
         stiffest=max(totals.stiffest, contact.solver.stiffest or 0.0),
+        borne=max(totals.borne, _borne(contacts)),
         penetration=max(totals.penetration, overlap),
         overlap=share,
         deepest=deepest,
@@ -59,6 +60,11 @@ def tallied(
         counts=counts,
     )
     return totals, overlap
+
+
+def _borne(contacts: "ContactPoints") -> float:
+    """Return the sum of the sizes of all forces (N)."""
+    return float(np.abs(contacts.normal_force).sum() + np.abs(contacts.shear_force).sum())
 
 
 def _over_smaller(stepper: Stepper, contacts: "ContactPoints", gap: Floats) -> Floats:

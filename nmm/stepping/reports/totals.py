@@ -22,6 +22,8 @@ class Totals:
     residual, penetration, stiffest
         Largest relative out-of-balance force, overlap (m) that forces go with, and stiffness of a
         contact (N/m).
+    borne
+        Largest sum of the sizes of the forces (N) of all contacts.
     overlap
         Largest overlap of bodies where steps end, over the size (root of the area) of the smaller.
     deepest
@@ -53,6 +55,7 @@ class Totals:
     overlap: float = 0.0
     deepest: str = ""
     stiffest: float = 0.0
+    borne: float = 0.0
     ways: int = 0
     alike: float | None = None
     largest: Mapping[str, int] = field(default_factory=dict)

@@ -1,6 +1,8 @@
 """Forces on every body where statics with contact ends, asked of what was found."""
 
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -34,7 +36,29 @@ TORN = text.scene(
         '[formulation.cover]\ntype = "triangles"\nsize = 0.2\ndegree = 1\n',
     ],
 )
+# A block of 10 kN, dragged 2 m along a floor.
+SLID = text.scene(
+    'plane = "stress"\nduration = 1.0\n[gravity]\n[contact]\n'
+    '[formulation.rotation]\nupdate = "small"\n[formulation.integrator]\nstep = 0.05\n',
+    [
+        text.material("rock", modulus=1e10, density=1e3),
+        *text.floor(),
+        text.box("light", (-1.9, 0), (1, 1)),
+        text.fixed_edge("rope", [[-1.9, 0], [-1.9, 1]], "x")
+        + "displacement = [2.0, 0.0]\nhistory = [[0, 0], [1, 1]]\n",
+    ],
+)
 METHODS = ["penalty", "augmented", "lagrange", "cone", "barrier"]
+
+
+def boasting(honest: Callable[..., Any], missed: float) -> Callable[..., Any]:
+    """Return a solver that finds contact forces too large by a share."""
+
+    def solve(*given: Any) -> Any:
+        answer = honest(*given)
+        return replace(answer, normal_force=(1 + missed) * answer.normal_force)
+
+    return solve
 
 
 @pytest.mark.parametrize("enforcement", METHODS)
@@ -49,13 +73,7 @@ def test_blocks_at_rest_are_in_balance_to_rounding(enforcement: str) -> None:
 @pytest.mark.parametrize("missed", [1e-5, 1e-2])
 def test_a_solver_that_says_it_has_found_what_it_has_not_is_found_out(monkeypatch, missed) -> None:
     """Forces of contacts that are said to be larger than they are are no equilibrium."""
-    honest = driver.solve_rebalanced
-
-    def boasting(*given):
-        answer = honest(*given)
-        return replace(answer, normal_force=(1 + missed) * answer.normal_force)
-
-    monkeypatch.setattr(driver, "solve_rebalanced", boasting)
+    monkeypatch.setattr(driver, "solve_rebalanced", boasting(driver.solve_rebalanced, missed))
     run = nmm.run(parse_scene(STACK))
     assert run.summary.equilibrium_residual < 1e-8
     # On the upper block, of two forces as large as its weight.
@@ -84,3 +102,11 @@ def test_meshes_that_were_torn_apart_bear_nothing_that_could_be_out_of_balance()
         > 9e5
         > 1e6 * abs(run.history["reaction:head:y"][-1])
     )
+
+
+def test_a_body_that_slid_far_under_a_tiny_load_is_still_asked(monkeypatch) -> None:
+    """Its own stiffness would ask for 7e13 N; 1e-7 of that is 670 times its weight."""
+    monkeypatch.setattr(driver, "solve_rebalanced", boasting(driver.solve_rebalanced, 1e-2))
+    run = nmm.run(parse_scene(SLID))
+    # Weight and reaction, friction of 30 degrees and pull.
+    assert run.summary.audits["force_balance"] == pytest.approx(0.01 * np.sqrt(0.75) / 2, rel=0.02)
