@@ -17,7 +17,7 @@ import numpy as np
 
 from covers.approximation.manifold import Manifold
 from integration.arrays import Bools, Floats, Ints
-from integration.plane_vectors import dot
+from integration.plane_vectors import cross, dot
 from nmm.contact.detection.contacts import (
     FACE,
     VERTEX_EDGE,
@@ -29,7 +29,7 @@ from nmm.contact.detection.contacts import (
 from nmm.contact.detection.joints import between, interval
 from nmm.contact.detection.measures import rules_of
 from nmm.contact.detection.surface import Surface, pair_key, unordered_key
-from nmm.contact.detection.tolerances import ANGLE, FACE_WALK, SAME_POINT
+from nmm.contact.detection.tolerances import ANGLE, FACE_WALK, KINK, SAME_POINT
 
 # Nodes in [0, 1] and weights of Lobatto's rules: exact to degree 1, 3 and 5.
 LOBATTO = {
@@ -121,6 +121,7 @@ def _edge_pairs(surface: Surface, found: Contacts) -> tuple[Ints, Ints]:
     """Pairs of edges that may overlap, sorted, and those (4, m) that hold each contact.
 
     A corner on a corner stands for all edges that end there, whichever of them the search named.
+    In a kink it stands for the one named: each of the two edges there bounds its way.
     """
     n = len(surface)
     v, e = found.vertex, found.edge
@@ -131,7 +132,9 @@ def _edge_pairs(surface: Surface, found: Contacts) -> tuple[Ints, Ints]:
     other = np.where(found.kind == VERTEX_VERTEX, across, e)
     ends = ((v, e), (before, e), (v, other), (before, other))
     own = np.stack([unordered_key(one, facing, n) for one, facing in ends])
-    return np.unique(own), own
+    arriving, leaving = surface.direction[surface.previous[corner]], surface.direction[corner]
+    kink = (cross(arriving, leaving) < 0.0) & (dot(arriving, leaving) < np.cos(KINK))
+    return np.unique(own), np.where(kink, np.tile(own[:2], (2, 1)), own)
 
 
 def _beside(surface: Surface, overlaps: Overlaps) -> Ints:

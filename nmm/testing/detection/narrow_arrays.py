@@ -76,16 +76,19 @@ def select(
     along, gap = measure(surface, v, e)
     covers = find_covers(surface, v, e, along, gap, rules)
     length = surface.length[e]
-    # A contact stays a little beyond the end of its edge, lest two vertices take turns.
-    slop = np.where(last, flush_distance(surface, v, e, rules), rules.end * length + rules.rounding)
-    interior = (along >= -slop) & (along <= length + slop)
+    # A contact stays a little beyond the end of its edge, lest two vertices take turns; in a kink
+    # both edges bound the way.
+    flush, sharp = flush_distance(surface, v, e, rules), rules.end * length + rules.rounding
+    convex = convex_vertices(surface, rules)
+    interior = along >= -np.where(last | ~convex[e], flush, sharp)
+    interior &= along <= length + np.where(last | ~convex[surface.next[e]], flush, sharp)
     # In one body the far face of a thin neck looks like a face that is overlapped.
     trusted = last | (surface.body[v] != surface.body[e])
     depth = np.where(trusted, rules.depth, rules.flush) * thinner(surface, v, e)
-    usable = (length > 0.0) & convex_vertices(surface, rules)[v]
+    usable = (length > 0.0) & convex[v]
     usable &= (gap >= -depth) & (gap <= rules.reach)
     usable &= leaves(surface, covers, v, e, rules)
-    usable &= ~shielded(surface, covers, v, e, along, rules)
+    usable &= ~shielded(surface, covers, v, e, along, gap, rules)
     rank = _rank(surface, v, e, along, gap, last, motion, rules)
     kept = np.where(interior & usable, 1, 0)
     kept[_dominated(surface, pairs, kept == 1, interior, along, gap, rank, rules)] = -1

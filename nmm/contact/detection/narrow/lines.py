@@ -42,6 +42,19 @@ def _inside(shape: Shape, one: int, other: int, rules: Rules) -> bool:
 
 
 @compiled
+def _beside(shape: Shape, v: int, e: int, s: float, known: bool, rules: Rules) -> bool:
+    """Whether the foot of a vertex is on an edge, or a little beyond the end.
+
+    A contact stays there, lest two vertices take turns; in a kink both edges bound the way.
+    """
+    sharp = rules.end * shape[e].length + rules.rounding
+    flush = rules.flush * thinner(shape, v, e) + rules.rounding
+    before = flush if known or not shape[e].convex else sharp
+    beyond = flush if known or not shape[shape[e].next].convex else sharp
+    return bool(s >= -before and s <= shape[e].length + beyond)
+
+
+@compiled
 def judge(
     shape: Shape, v: int, before: EdgesOfVertex, known: Bools, state: Small, rules: Rules
 ) -> None:
@@ -53,11 +66,8 @@ def judge(
     covered = shape[v].own >= 0 or shape[v].before >= 0
     for k in range(low, high):
         e = edge[k]
-        # A contact stays a little beyond the end of its edge, lest two vertices take turns.
-        slop = rules.rounding
-        slop += rules.flush * thinner(shape, v, e) if known[k] else rules.end * shape[e].length
         state[k] = 0
-        if s[k] >= -slop and s[k] <= shape[e].length + slop:
+        if _beside(shape, v, e, s[k], known[k], rules):
             state[k] = INTERIOR
         if not shape[v].convex or gap[k] > rules.reach or shape[e].length <= 0.0:
             continue
@@ -71,7 +81,7 @@ def judge(
             ux, uy, wx, wy = rays(shape, v, shape[e].body, rules)
             if not leaves(shape, e, ux, uy, wx, wy, rules):
                 continue
-        if not shielded(shape, v, e, s[k], rules):
+        if not shielded(shape, v, e, s[k], gap[k], rules):
             state[k] |= USABLE
 
 

@@ -97,15 +97,48 @@ def _closed(shape: Shape, e: int, x: int, end: int, aside: float, rules: Rules) 
 
 
 @compiled
-def shielded(shape: Shape, v: int, e: int, s: float, rules: Rules) -> bool:
+def _covering(shape: Shape, v: int, e: int, end: int) -> int:
+    """Return the edge of a third body that lies flush on an edge next to an end of it; or -1."""
+    x: int = shape[e].own if end == 0 else shape[shape[e].next].before
+    return -1 if x >= 0 and shape[x].body == shape[v].body else x
+
+
+@compiled
+def _may_enter(shape: Shape, v: int, e: int, end: int, rules: Rules) -> bool:
+    """Whether a vertex at an end of an edge may enter it as what covers the edge there gives way.
+
+    It may in a kink, where both edges of the body bound its way; and at a corner if some way along
+    another body, which lies flush on an edge of its own, leads into the corner.
+    """
+    x, corner = _covering(shape, v, e, end), e if end == 0 else shape[e].next
+    if x < 0 or not shape[corner].convex:
+        return x >= 0
+    p = shape[corner].previous
+    for side in range(2):
+        y = shape[v].own if side == 0 else shape[v].before
+        if y < 0 or shape[y].body == shape[x].body or shape[y].body == shape[e].body:
+            continue
+        nx, ny = shape[y].ty, -shape[y].tx
+        onward = shape[corner].tx * nx + shape[corner].ty * ny
+        if max(onward, -(shape[p].tx * nx + shape[p].ty * ny)) > rules.sine:
+            return True
+    return False
+
+
+@compiled
+def shielded(shape: Shape, v: int, e: int, s: float, gap: float, rules: Rules) -> bool:
     """Whether the foot is on a stretch of edge, next to its end, that a third body covers."""
-    length, partner = shape[e].length, shape[v].body
+    length = shape[e].length
     room = rules.depth * shape[v].thick + rules.rounding
     foot = min(max(s, 0.0), length)
+    flush = rules.flush * thinner(shape, v, e) + rules.rounding
+    beside = min(foot, length - foot)
+    if max(beside, abs(gap)) <= flush and _may_enter(shape, v, e, int(foot > beside), rules):
+        return False
     total = 0.0
     for end in range(2):
-        x = shape[e].own if end == 0 else shape[shape[e].next].before
-        if x < 0 or shape[x].body == partner:
+        x = _covering(shape, v, e, end)
+        if x < 0:
             continue
         if end == 0:
             distance = foot

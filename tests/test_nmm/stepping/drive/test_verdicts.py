@@ -83,6 +83,57 @@ def test_bound_of_a_scene_without_contact_is_refused(tmp_path):
     assert "[contact] is missing" in " ".join(told.output.split())
 
 
+TOE = """
+plane = "stress"
+[contact]
+[gravity]
+[interfaces.smooth]
+between = "any"
+friction_angle = 0.0
+[interfaces.rough]
+between = ["b", "g"]
+friction_angle = %s
+%s
+[[supports]]
+name = "held"
+block = "ground"
+fix = ["x", "y"]
+"""
+"""A wedge on a smooth slope of 45 degrees that presses on a block, flush with it, on the flat."""
+MATTER = "[materials.%s]\nyoung_modulus = 1e9\npoisson_ratio = 0.0\ndensity = 2000.0\n"
+OUTLINES = {
+    "ground": ("g", [[-4, 4], [-4, -2], [6, -2], [6, 0], [0, 0]]),
+    "wedge": ("w", [[0, 0], [0, 2], [-2, 2]]),
+    "block": ("b", [[0, 0], [2, 0], [2, 2], [0, 2]]),
+}
+
+
+def toe(friction):
+    matter = "".join(MATTER % name for name in "gwb")
+    blocks = (
+        f'[[blocks]]\nname = "{name}"\nmaterial = "{of}"\nvertices = {outline}\n'
+        for name, (of, outline) in OUTLINES.items()
+    )
+    return TOE % (np.arctan(friction), matter + "".join(blocks))
+
+
+# Least pressure on the block: the slope's force N acts at the upper end of the wedge, W of which
+# acts at a third of its width; about the toe W 2/3 = N 2 sqrt(2), and the block, of 2 W, is pushed
+# by N / sqrt(2) = W / 6, while the toe stands on the flat with 5 W / 6. So friction of 1 / 12.
+@pytest.mark.parametrize("share", [0.999, 1.001])
+def test_a_toe_stands_on_the_flat_beside_a_flush_block_in_the_static_theorem(share):
+    made = prepare(nmm.parse_scene(toe(0.3)), nmm.Formulation())
+    found = carried(made.stepper, made.start, 1.0, weaker=0.3 * 12 * share)
+    assert found.fails == (share > 1)
+
+
+@pytest.mark.parametrize("cover", [{}, {"type": "triangles", "size": 0.5}])
+def test_a_toe_on_the_flat_beside_a_flush_block_is_at_rest_at_once(cover):
+    formulation = nmm.Formulation.model_validate({"cover": cover})
+    found = nmm.run(nmm.parse_scene(toe(0.3)), formulation).summary
+    assert (found.status, found.sentence) == ("converged", "equilibrium at load factor 1")
+
+
 def test_a_run_until_failure_tells_its_bound_beside_what_it_found():
     text = BLOCKS % 45 + PUSH % (2.0, WEIGHT)
     text += '[loading]\nscaled = ["push"]\nuntil = "failure"\n'
