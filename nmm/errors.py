@@ -48,6 +48,12 @@ def printable(text: str) -> str:
     return "".join(one if one.isprintable() else repr(one)[1:-1] for one in text)
 
 
+def in_a_line(error: Exception) -> str:
+    """Return the message of an error in one line; one not raised on purpose with its class."""
+    kind = "" if isinstance(error, NmmError) else f"{type(error).__name__}: "
+    return " ".join(f"{kind}{error}".split())
+
+
 class NmmError(ValueError):
     """Base of all errors raised on purpose; `faults` holds every fault found, one line each.
 

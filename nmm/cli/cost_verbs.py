@@ -93,7 +93,8 @@ def calibrate(
     with faults_told():
         one_thread_only()
         from nmm.study.cost import calibrate as work
-        from nmm.study.cost.cost_model import factor, save_model
+        from nmm.study.cost.cost_model import factor
+        from nmm.study.cost.stored_model import save_model
 
         with progress_bar(quiet) as progress:
             model = work.calibrate(progress)

@@ -125,7 +125,8 @@ def _rule_among_contacts(chosen: "Formulation") -> Iterator[str]:
 
 def _tell_cost(simulation: "Simulation") -> None:
     """Print what a compiled scene will cost on this machine."""
-    from nmm.study.cost.cost_model import load_model, size_of, steps_of
+    from nmm.study.cost.run_size import size_of, steps_of
+    from nmm.study.cost.stored_model import load_model
 
     model = load_model()
     if model is None:

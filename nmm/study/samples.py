@@ -7,6 +7,7 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from integration.polygons import Polygons
+from nmm.outputs.stresses import von_mises
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run
@@ -50,8 +51,7 @@ class SampledFields:
     @property
     def mises(self) -> Floats:
         """Von Mises stress (m,) of the components in the plane."""
-        xx, yy, xy = self.stress.T
-        return np.asarray(np.sqrt(xx**2 - xx * yy + yy**2 + 3 * xy**2))
+        return von_mises(self.stress)
 
 
 def raster(polygons: Polygons, cells: int = 12_000) -> Raster:

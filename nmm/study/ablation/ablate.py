@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from nmm.errors import FormulationError, NmmError
+from nmm.errors import FormulationError, NmmError, in_a_line
 from nmm.formulation import Formulation
 from nmm.model.called_for import called_for
 from nmm.progress import Progress
@@ -121,7 +121,7 @@ def ablate(
             cases.append(_case(omission, scene))
         except NmmError as fault:
             nothing = (math.nan,) * len(names)
-            why = f"cannot be left out alone: {' '.join(str(fault).split())}"
+            why = f"cannot be left out alone: {in_a_line(fault)}"
             refused.append(AblationRow(omission.name, nothing, math.nan, why))
     records = measure(cases, names, repeats, memory=False, progress=progress, long=LONG)
     if records[0].status == "error":

@@ -9,12 +9,12 @@ from pathlib import Path
 from time import perf_counter, process_time
 from typing import TYPE_CHECKING, Any
 
-from nmm.errors import NmmError
+from nmm.errors import in_a_line
 from nmm.progress import Progress
 from nmm.study.cases.block_covers import blocks_of
 from nmm.study.cases.memory import added_memories
 from nmm.study.cases.quantities import Measured, quantity
-from nmm.study.cases.record import Record
+from nmm.study.cases.record import VALID, Record
 from nmm.study.cases.running import commit, run_case
 from nmm.study.cases.variants import StudyCase
 
@@ -106,10 +106,8 @@ def _once(case: StudyCase, names: Sequence[str]) -> tuple[Record, SpentTime]:
         return _record(case, done, names), spent
     # A case that breaks in any way is a result of the study, and the other cases go on.
     except Exception as fault:
-        kind = "" if isinstance(fault, NmmError) else f"{type(fault).__name__}: "
         spent = SpentTime(process_time() - cpu, perf_counter() - wall, summary)
-        sentence = " ".join(f"{kind}{fault}".split())
-        return Record(**_identity(case), status="error", sentence=sentence), spent
+        return Record(**_identity(case), status="error", sentence=in_a_line(fault)), spent
 
 
 def _identity(case: StudyCase) -> dict[str, Any]:
@@ -149,7 +147,7 @@ def method_of(formulation: "Formulation") -> dict[str, str]:
 
 def _record(case: StudyCase, done: Measured, names: Sequence[str]) -> Record:
     summary = done.summary
-    usable = summary.status in ("converged", "failure_load")
+    usable = summary.status in VALID
     values = {name: quantity(done, name) if usable else float("nan") for name in names}
     return Record(
         **_identity(case),

@@ -7,6 +7,9 @@ from typing import Any, Self
 
 import numpy as np
 
+VALID = ("converged", "failure_load")
+"""Verdicts of runs whose numbers may be used."""
+
 
 @dataclass(frozen=True)
 class Record:
@@ -65,7 +68,7 @@ class Record:
     @property
     def valid(self) -> bool:
         """Whether the run's numbers may be used."""
-        return self.status in ("converged", "failure_load")
+        return self.status in VALID
 
     @property
     def family(self) -> str:
@@ -91,8 +94,7 @@ class Record:
     @property
     def label(self) -> str:
         """Name and settings in words."""
-        settings = ", ".join(f"{key} = {value}" for key, value in self.settings.items())
-        return f"{self.name} ({settings})" if settings else self.name
+        return labelled(self.name, self.settings)
 
     def to_json(self) -> str:
         """Return the record as one line of JSON; nan becomes null."""
@@ -109,6 +111,12 @@ class Record:
         for name in ("seconds", "wall"):
             values[name] = tuple(values[name])
         return cls(**values)
+
+
+def labelled(name: str, settings: Mapping[str, Any]) -> str:
+    """Return a name with settings in words."""
+    words = ", ".join(f"{key} = {value}" for key, value in settings.items())
+    return f"{name} ({words})" if words else name
 
 
 def finest(records: Sequence[Record]) -> Record:

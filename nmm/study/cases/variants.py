@@ -18,6 +18,7 @@ from nmm.scene import canonical_text as scene_text
 from nmm.scene.document import build
 from nmm.scene.faults import Source
 from nmm.study.cases.block_covers import blocks_of
+from nmm.study.cases.record import labelled
 from nmm.trust import given
 
 SIZE = "formulation.cover.size"
@@ -59,8 +60,7 @@ class StudyCase:
     @property
     def label(self) -> str:
         """Name and settings in words."""
-        settings = ", ".join(f"{key} = {value}" for key, value in self.settings.items())
-        return f"{self.name} ({settings})" if settings else self.name
+        return labelled(self.name, self.settings)
 
 
 def with_settings(case: StudyCase, settings: Mapping[str, Any]) -> StudyCase:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from time import process_time
 
-from nmm.errors import NmmError
+from nmm.errors import NmmError, in_a_line
 from nmm.progress import Progress
 from nmm.stepping.run import Run, run
 from nmm.study.cases.block_covers import blocks_of
@@ -94,6 +94,5 @@ def _compared(case: StudyCase, grid: Raster, memory: bool) -> Compared:
         return Compared(case.name, family, method, done, seen, seconds, peak)
     # Whatever breaks in one case is told on the page beside the others.
     except Exception as fault:
-        kind = "" if isinstance(fault, NmmError) else f"{type(fault).__name__}: "
-        sentence = " ".join(f"{kind}{fault}".split())
-        return Compared(case.name, family, method, None, None, float("nan"), None, sentence)
+        told = in_a_line(fault)
+        return Compared(case.name, family, method, None, None, float("nan"), None, told)

@@ -12,7 +12,8 @@ from nmm.scene import Scene, parse_scene
 from nmm.study.cases.measure import machine
 from nmm.study.cases.memory import added_memory
 from nmm.study.cases.variants import StudyCase
-from nmm.study.cost.cost_model import CostModel, MeasuredRun, fit, size_of
+from nmm.study.cost.cost_model import CostModel, MeasuredRun, fit
+from nmm.study.cost.run_size import size_of
 
 ROCK = "[materials.rock]\nyoung_modulus = 1e9\npoisson_ratio = 0.2\ndensity = 2000\n"
 JOINT = "[interfaces.joint]\nfriction_angle = 0.5\n"

@@ -1,67 +1,13 @@
 """What a scene will cost before it runs: seconds and memory from counts, fitted on this machine."""
 
-import json
-import os
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from integration.arrays import Floats
 from nmm.errors import NmmError
-
-if TYPE_CHECKING:
-    from nmm.stepping.simulation import Simulation
-
-FILE = "cost_model.json"
-
-
-@dataclass(frozen=True)
-class Size:
-    """Counts that the cost of a run depends on.
-
-    Attributes
-    ----------
-    elements, unknowns
-        Of the manifold.
-    entries
-        Entries of all element matrices, ``sum L^2``.
-    edges
-        Boundary edges that contact is searched among; 0 without contact.
-    steps
-        Steps or load increments. Contact passes are not told beforehand; their usual number is in
-        the coefficients.
-    """
-
-    elements: int
-    unknowns: int
-    entries: int
-    edges: int
-    steps: float
-
-    @property
-    def kind(self) -> str:
-        """Runs with and without contact are fitted apart."""
-        return "contact" if self.edges else "alone"
-
-    def preparation(self) -> Floats:
-        """Terms of the seconds of geometry, covers and effects."""
-        return np.array([1.0, self.elements, self.entries, self.edges])
-
-    def running(self) -> Floats:
-        """Terms of the seconds of the run: once, and for each step.
-
-        Factors of a plane mesh in nested dissection take ``N^1.5`` operations (George 1973).
-        """
-        n, s = float(self.unknowns), self.steps
-        return np.array([1.0, s, s * self.entries, s * n, s * n**1.5, s * self.edges])
-
-    def storage(self) -> Floats:
-        """Terms of the memory; factors of a plane mesh hold ``N log N`` numbers (George 1973)."""
-        n = float(self.unknowns)
-        return np.array([1.0, self.elements, self.entries, n * np.log2(n + 2), self.edges])
+from nmm.study.cost.run_size import Size
 
 
 @dataclass(frozen=True)
@@ -115,20 +61,6 @@ class CostModel:
         """Bytes that a run adds to a fresh process at its peak."""
         return float(size.storage() @ self.coefficients[size.kind].memory)
 
-    def to_json(self) -> str:
-        """Return the model as JSON."""
-        return json.dumps(asdict(self), indent=2) + "\n"
-
-    @classmethod
-    def from_json(cls, text: str) -> Self:
-        """Read a model back."""
-        values: dict[str, Any] = json.loads(text)
-        values["coefficients"] = {
-            kind: Coefficients(**{name: tuple(many) for name, many in of.items()})
-            for kind, of in values["coefficients"].items()
-        }
-        return cls(**values)
-
 
 def fit(measured: Sequence[MeasuredRun], machine: str) -> CostModel:
     """Fit all coefficients so that relative errors are least.
@@ -166,51 +98,6 @@ def factor(one: float, other: float) -> float:
     """Return how many times the larger of two numbers is the smaller."""
     low, high = sorted((one, other))
     return high / low if low > 0 else float("inf")
-
-
-def size_of(simulation: "Simulation", steps: float) -> Size:
-    """Count what a compiled scene will cost."""
-    manifold = simulation.stepper.model.manifold
-    entries = sum(
-        group.unknowns.shape[0] * group.unknowns.shape[1] ** 2 for group in manifold.groups
-    )
-    edges = len(manifold.boundary.start) if simulation.scene.contact is not None else 0
-    return Size(len(manifold.elements), manifold.n_unknowns, int(entries), edges, steps)
-
-
-def steps_of(simulation: "Simulation") -> float | None:
-    """Return the number of steps of a run; None when the load at failure, or errors decide."""
-    scene, formulation = simulation.scene, simulation.formulation
-    if scene.inertia is not None and scene.duration is not None:
-        step = formulation.integrator.fixed_step
-        return None if step is None else float(np.ceil(scene.duration / step))
-    if scene.loading is None:
-        return 1.0
-    if scene.loading.until == "failure":
-        return None
-    return float(np.ceil(float(scene.loading.until) / formulation.loading.increment))
-
-
-def cache_folder() -> Path:
-    """Return the user's cache folder of nmm."""
-    base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    return Path(base) / "nmm"
-
-
-def save_model(model: CostModel, folder: Path | None = None) -> Path:
-    """Write the model where `load_model` finds it."""
-    path = (folder or cache_folder()) / FILE
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(model.to_json(), encoding="utf-8")
-    return path
-
-
-def load_model(folder: Path | None = None) -> CostModel | None:
-    """Return the model of this machine; None when it was never fitted."""
-    try:
-        return CostModel.from_json((folder or cache_folder()).joinpath(FILE).read_text())
-    except (OSError, ValueError, TypeError, KeyError):
-        return None
 
 
 def _fit(rows: Sequence[Floats], values: Sequence[float]) -> tuple[float, ...]:

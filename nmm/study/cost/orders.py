@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from integration.arrays import Floats
+
 
 @dataclass(frozen=True)
 class Order:
@@ -84,7 +86,7 @@ def richardson(sizes: Sequence[float], values: Sequence[float]) -> Extrapolated:
     return Extrapolated(float(f[2] + correction), float(abs(doubt)), p)
 
 
-def _order_of(h: "np.ndarray[tuple[int], np.dtype[np.float64]]", ratio: float) -> float:
+def _order_of(h: Floats, ratio: float) -> float:
     """Order p with (h0^p - h1^p) / (h1^p - h2^p) = ratio, by bisection."""
 
     def excess(p: float) -> float:

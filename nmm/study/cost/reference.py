@@ -11,6 +11,7 @@ from nmm.study.cases.record import Record
 from nmm.study.cost.orders import Extrapolated, richardson
 
 UNSETTLED = 10.0
+UNKNOWNS = "unknowns^(-1/2)"
 
 
 @dataclass(frozen=True)
@@ -57,19 +58,29 @@ def stated_reference(scene: Scene, name: str | None) -> Reference | None:
 
 
 def sizes_of(records: Sequence[Record]) -> list[float]:
-    """Return the size that error falls with: of the numeric setting that differs, or unknowns^-1/2.
+    """Return the size that error falls with (`size_name`); 1 where none differs.
 
-    In two dimensions the size of what carries an unknown falls with the root of their number. Where
-    all have the same number, it is the first setting (a step, an increment, a tolerance) that
-    differs among the records and is a positive number.
+    In two dimensions the size of what carries an unknown falls with the root of their number.
+    """
+    name = size_name(records)
+    if name == UNKNOWNS:
+        return [one.unknowns**-0.5 if one.unknowns else np.nan for one in records]
+    return [_number(one.settings.get(name)) if name else 1.0 for one in records]
+
+
+def size_name(records: Sequence[Record]) -> str:
+    """Return the name of the size that differs among records; "" where none does.
+
+    Where all have the same number of unknowns, it is the first setting (a step, an increment, a
+    tolerance) that differs and is a positive number.
     """
     if len({one.unknowns for one in records}) > 1:
-        return [one.unknowns**-0.5 if one.unknowns else np.nan for one in records]
+        return UNKNOWNS
     for key in dict.fromkeys(key for one in records for key in one.settings):
         values = [_number(one.settings.get(key)) for one in records]
         if len(set(values)) > 1 and all(value > 0 for value in values):
-            return values
-    return [1.0] * len(records)
+            return key
+    return ""
 
 
 def extrapolated_reference(records: Sequence[Record], name: str) -> Reference:

@@ -10,7 +10,7 @@ from nmm.study.cost.cost_study import CostStudy, write_records
 from nmm.study.cost.figure import draw
 from nmm.study.cost.levels import level_table
 from nmm.study.cost.orders import Order, observed_order
-from nmm.study.cost.reference import sizes_of
+from nmm.study.cost.reference import UNKNOWNS, size_name, sizes_of
 from nmm.study.cost.theory import order_in_size, order_in_step
 
 # Wall over processor seconds above which something else took the processor.
@@ -94,18 +94,19 @@ def _orders(study: CostStudy) -> list[str]:
         order = observed_order(sizes, [study.error(one) for one in used])
         if order.points > 1 and np.isfinite(order.value):
             told = _theory(study, used, order)
-            lines.append(f"- {name}: {order} in {_size_name(used)}{told}")
+            lines.append(f"- {name}: {order} in {size_name(used)}{told}")
     return lines
 
 
 def _theory(study: CostStudy, records: Sequence[Record], order: Order) -> str:
     """Say what order theory promises, and whether it lies within the confidence."""
     method = records[0].method
-    if len({one.unknowns for one in records}) > 1:
+    name = size_name(records)
+    if name == UNKNOWNS:
         cover, quantity = method.get("cover", ""), study.reference.quantity
         found = order_in_size(cover, quantity, study.exponent)
         where = "for a smooth solution" if study.exponent is None else "at the corner"
-    elif _size_name(records).endswith("integrator.step"):
+    elif name.endswith("integrator.step"):
         found, where = order_in_step(method), "while contacts stay as they are"
     else:
         found = None
@@ -116,16 +117,6 @@ def _theory(study: CostStudy, records: Sequence[Record], order: Order) -> str:
     side = "within" if within else "above" if order.value > promised else "below"
     verdict = f", observed {side} it" if np.isfinite(order.deviation) else ""
     return f"; theory {promised:g} = {formula} {where}{verdict}"
-
-
-def _size_name(records: Sequence[Record]) -> str:
-    if len({one.unknowns for one in records}) > 1:
-        return "unknowns^(-1/2)"
-    return next(
-        key
-        for key in records[0].settings
-        if len({str(one.settings.get(key)) for one in records}) > 1
-    )
 
 
 def _limits(study: CostStudy) -> list[str]:

@@ -71,8 +71,8 @@ def _at_node(solid: MeshedBody, load: "LoadTable") -> Floats:
     return force
 
 
-def held_nodes(solid: MeshedBody) -> tuple[Ints, Floats]:
-    """Return the held unknowns and their values."""
+def fixed_unknowns(solid: MeshedBody) -> tuple[Ints, Floats]:
+    """Return the unknowns that supports fix, and their values."""
     values: dict[int, float] = {}
     basis = solid.basis
     for support in solid.scene.supports:

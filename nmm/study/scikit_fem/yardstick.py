@@ -17,7 +17,7 @@ from nmm.errors import NmmError
 from nmm.formulation import Formulation, formulation_hash
 from nmm.results.summary import Summary
 from nmm.scene import scene_hash
-from nmm.study.scikit_fem.conditions import force_of, held_nodes
+from nmm.study.scikit_fem.conditions import fixed_unknowns, force_of
 from nmm.study.scikit_fem.solids import MeshedBody, meshed_body, refuse
 
 if TYPE_CHECKING:
@@ -60,8 +60,8 @@ def run_elements(scene: "Scene", formulation: Formulation) -> ElementRun:
     solid = clock.timed(clock.phases, "covers", lambda: meshed_body(scene, formulation))
     matrix = clock.timed(clock.phases, "assembly", lambda: _stiffness(solid))
     force = clock.timed(clock.effects, "loads", lambda: force_of(solid))
-    held, values = clock.timed(clock.effects, "supports", lambda: held_nodes(solid))
-    moved = clock.timed(clock.phases, "solve", lambda: _solved(matrix, force, held, values))
+    fixed, values = clock.timed(clock.effects, "supports", lambda: fixed_unknowns(solid))
+    moved = clock.timed(clock.phases, "solve", lambda: _solved(matrix, force, fixed, values))
     clock.phases["assembly"] += sum(clock.effects.values())
     history = _history(solid, matrix, moved)
     total = perf_counter() - begun
@@ -93,12 +93,12 @@ def _stiffness(solid: MeshedBody) -> Any:
     return (linear_elasticity(first, second).assemble(solid.basis) * solid.scene.thickness).tocsc()
 
 
-def _solved(matrix: Any, force: Floats, held: Ints, values: Floats) -> Floats:
+def _solved(matrix: Any, force: Floats, fixed: Ints, values: Floats) -> Floats:
     from scipy.sparse.linalg import splu
 
     moved = np.zeros(len(force))
-    moved[held] = values
-    free = np.setdiff1d(np.arange(len(force)), held)
+    moved[fixed] = values
+    free = np.setdiff1d(np.arange(len(force)), fixed)
     right = (force - matrix @ moved)[free]
     try:
         factors = splu(

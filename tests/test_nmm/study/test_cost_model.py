@@ -10,16 +10,9 @@ from nmm.errors import NmmError
 from nmm.shipped import starter
 from nmm.stepping.prepare import prepare
 from nmm.study.cost.calibrate import BEAM, Kind, measured, wall
-from nmm.study.cost.cost_model import (
-    MeasuredRun,
-    Size,
-    factor,
-    fit,
-    load_model,
-    save_model,
-    size_of,
-    steps_of,
-)
+from nmm.study.cost.cost_model import MeasuredRun, factor, fit
+from nmm.study.cost.run_size import Size, size_of, steps_of
+from nmm.study.cost.stored_model import load_model, save_model
 
 
 def size(n, edges=0, steps=1.0):
