@@ -1,4 +1,4 @@
-"""Work-precision figures: error against seconds, unknowns, memory; time by phase and effect."""
+"""Work-precision figures: error against seconds, unknowns and memory, and where the time goes."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -9,37 +9,12 @@ import numpy as np
 
 from nmm.plots.canvas import SMALL, PathLike, axes_grid, frame, save
 from nmm.plots.families import styles
+from nmm.plots.time_shares import by_effect, by_phase
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-PHASES = {
-    "covers": "#6a4c93",
-    "effects": "#b8a1cf",
-    "search": "#e08e0b",
-    "assembly": "#93aac2",
-    "solve": "#1d4e89",
-    "update": "#2a7f62",
-    "rest": "#c9c5ba",
-}
-EFFECTS = {
-    "supports": "#1d4e89",
-    "loads": "#93aac2",
-    "body loads": "#4d9de0",
-    "gravity": "#2a7f62",
-    "inertia": "#7fb069",
-    "contact": "#e08e0b",
-    "solution with contact": "#f3d98b",
-    "bonded interfaces": "#c1121f",
-    "artificial joints": "#7a1f3d",
-    "initial velocity": "#6a4c93",
-    "initial stress": "#b8a1cf",
-    "other effects": "#9c8b00",
-    "covers, elasticity, solution": "#e4e1d8",
-}
 MOST_IN_A_COLUMN = 12
-BELOW = 30.0  # points below the axes at which the legend of bars begins
-VISIBLE = 0.5  # percent; parts that are nowhere more are not drawn
 FAILED = 0.96  # height, in fractions of the axes, at which failed runs are marked
 
 
@@ -114,9 +89,13 @@ def work_precision(
         axes.set_axisbelow(True)
     _front(panels[0], series)
     _legend(panels[3], series, looks, uncertainty)
-    _shares(panels[4], {name: one.phases for name, one in series.items()}, PHASES, "by phase")
-    _shares(panels[5], _effects(series), EFFECTS, "by effect")
-    _seconds(panels[5], series)
+    timed = {name: one for name, one in series.items() if one.phases}
+    phases = {name: one.phases for name, one in timed.items()}
+    by_phase(panels[4], phases)
+    by_effect(panels[5], phases, {name: one.effects for name, one in timed.items()})
+    # The names stand at the left already.
+    seconds = [f"{np.nanmax(one.seconds):.2g} s" for one in timed.values()]
+    panels[5].set_yticks(range(len(timed)), seconds)
     if title:
         head = f"{title}\n{reference}" if reference else title
         panels[0].figure.suptitle(head, fontsize=9.5, x=0.01, ha="left")
@@ -199,62 +178,6 @@ def _front(axes: "Axes", series: Mapping[str, WorkPrecision]) -> None:
         seconds, error = np.array(sorted(best)).T
         error = np.maximum(error, 1e-16)
         axes.plot(seconds, error, color="#f3d98b", linewidth=8, zorder=0, solid_capstyle="round")
-
-
-def _effects(series: Mapping[str, WorkPrecision]) -> dict[str, Mapping[str, float]]:
-    """Seconds of each effect, of those that have no colour together, and what is left."""
-    found: dict[str, Mapping[str, float]] = {}
-    for name, one in series.items():
-        if one.phases:
-            known = {effect: spent for effect, spent in one.effects.items() if effect in EFFECTS}
-            total = sum(one.effects.values())
-            known["other effects"] = total - sum(known.values())
-            known["covers, elasticity, solution"] = max(sum(one.phases.values()) - total, 0.0)
-            found[name] = known
-    return found
-
-
-def _shares(
-    axes: "Axes",
-    spent: Mapping[str, Mapping[str, float]],
-    colours: Mapping[str, str],
-    words: str,
-) -> None:
-    """Draw how the dearest run's time is shared."""
-    timed = {name: one for name, one in spent.items() if one}
-    names = list(timed)
-    total = np.array([sum(one.values()) for one in timed.values()])
-    left = np.zeros(len(names))
-    for part, colour in colours.items():
-        share = 100 * np.array([one.get(part, 0.0) for one in timed.values()])
-        share = share / np.where(total > 0, total, 1.0)
-        if share.max(initial=0.0) > VISIBLE:
-            axes.barh(names, share, left=left, color=colour, label=part, height=0.65)
-        left = left + share
-    axes.set(xlim=(0, 100))
-    axes.invert_yaxis()
-    axes.tick_params(axis="y", labelsize=SMALL - 2)
-    frame(axes, "share of the dearest run's time  (%)", "", f"where the time goes, {words}")
-    if names:
-        from matplotlib.transforms import ScaledTranslation
-
-        down = ScaledTranslation(0, -BELOW / 72, axes.figure.figure.dpi_scale_trans)
-        axes.legend(
-            fontsize=SMALL - 2,
-            frameon=False,
-            ncols=3,
-            loc="upper center",
-            bbox_to_anchor=(0.45, 0.0),
-            bbox_transform=axes.transAxes + down,
-            columnspacing=1.0,
-            handlelength=1.0,
-        )
-
-
-def _seconds(axes: "Axes", series: Mapping[str, WorkPrecision]) -> None:
-    """Write the dearest run's seconds in place of the names, which stand at the left already."""
-    timed = [one for one in series.values() if one.phases]
-    axes.set_yticks(range(len(timed)), [f"{np.nanmax(one.seconds):.2g} s" for one in timed])
 
 
 def _legend(

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from nmm.plots.canvas import PathLike, axes_grid, finished, frame
-from nmm.plots.results.curves import CYCLE
+from nmm.plots.results.columns import CYCLE
 from nmm.results.response_spectrum import ResponseSpectrum
 
 if TYPE_CHECKING:
