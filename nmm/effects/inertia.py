@@ -38,6 +38,7 @@ class Inertia(Effect):
         self._model = model
         self._axes_turn = axes_turn
         self.mass: csc_array = model.mass
+        self._spins = KeptOfStates(self._spin)
         self._outwards = KeptOfStates(self._centrifugal)
 
     @classmethod
@@ -107,6 +108,9 @@ class Inertia(Effect):
 
     def spin(self, state: State) -> Floats:
         """Return the mean angular velocity (B,) of the bodies (rad/s)."""
+        return self._spins.of(state)
+
+    def _spin(self, state: State) -> Floats:
         return product(self._model.rigid_projection, state.velocity).reshape(-1, 3)[:, 2]
 
     def energy(self, state: State) -> float:

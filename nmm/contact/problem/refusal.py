@@ -21,19 +21,16 @@ def refuse(problem: StepProblem) -> None:
         Naming the first array at fault.
     """
     n, m, limits = len(problem.force), len(problem.gap), vars(problem.limits)
-    matrices = {name: getattr(problem, name) for name in MATRICES}
-    columns = {name: getattr(problem, name) for name in COLUMNS} | limits
-    for name, expected in zip(MATRICES, ((n, n), (m, n), (m, n)), strict=True):
-        if matrices[name].shape != expected:
-            raise SolveError(f"contact problem: {name} {matrices[name].shape}: expected {expected}")
-    for name, column in columns.items():
-        if len(column) != m:
-            raise SolveError(f"contact problem: {name} {column.shape}: expected ({m},)")
-    finite = {name: one.data for name, one in matrices.items()} | {"force": problem.force}
-    held = (columns[name] for name in ("gap", "slip", *STIFFNESSES, *limits))
+    given = vars(problem) | limits
+    matrices = dict.fromkeys(MATRICES, (m, n)) | {"matrix": (n, n)}
+    for name, expected in (matrices | dict.fromkeys((*COLUMNS, *limits), (m,))).items():
+        if given[name].shape != expected:
+            raise SolveError(f"contact problem: {name} {given[name].shape}: expected {expected}")
+    finite = {name: given[name].data for name in MATRICES} | {"force": problem.force}
+    held = [given[name] for name in ("gap", "slip", *STIFFNESSES, *limits)]
     if sound(*finite.values(), *held):
         return
-    finite |= {name: columns[name] for name in ("gap", "slip", "friction", *STIFFNESSES)}
+    finite |= {name: given[name] for name in ("gap", "slip", "friction", *STIFFNESSES)}
     for name, array in finite.items():
         if not np.isfinite(array).all():
             at = int(np.isfinite(array).argmin())
@@ -42,11 +39,11 @@ def refuse(problem: StepProblem) -> None:
                 "check loads and stiffnesses, or shorten the step"
             )
     for name in (*STIFFNESSES, *limits):
-        good = columns[name] > 0 if name in STIFFNESSES else columns[name] >= 0
+        good = given[name] > 0 if name in STIFFNESSES else given[name] >= 0
         if not good.all():
             at = int(good.argmin())
             raise SolveError(
-                f"contact problem: {name} of contact {at}: {columns[name][at]}: "
+                f"contact problem: {name} of contact {at}: {given[name][at]}: "
                 "expected a positive number (limits may be 0)"
             )
 
