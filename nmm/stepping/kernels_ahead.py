@@ -93,10 +93,10 @@ def solve_in_turn() -> None:
     """Solve it, the last of what a step calls first."""
     problem, enforcement, solver = column_of_blocks(), Penalty(), make_solver("auto").beside(True)
     springs, nothing = CutSprings.of(problem), np.zeros_like(problem.force)
-    start_from(springs, [nothing, problem.force], True, Islands.of(springs))
     memory = enforcement.memory()
     factor = memory.factor_of(springs, solver)[0].factor
     ModifiedNewton(springs, factor, nothing, springs.residual(nothing)).run(9, 1e-8)
+    start_from(springs, [nothing, problem.force], True, Islands.of(springs))
     enforcement.solve(problem, solver, memory)
 
 
