@@ -5,7 +5,6 @@ judged by their residual; a matrix without inverse is decomposed again with a sh
 """
 
 from dataclasses import dataclass, field
-from math import sqrt
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -16,6 +15,7 @@ from nmm.errors import SolveError
 from nmm.solvers.draws import same_draws
 from nmm.solvers.known import known_load
 from nmm.solvers.krylov import minimal_residual
+from nmm.solvers.norm import norm
 from nmm.solvers.scaling import scaled
 from nmm.solvers.unchecked import product
 
@@ -157,8 +157,8 @@ class Factor:
 
         A load that is left of forces ``among`` (n,) counts as no less than `known_load` of these.
         """
-        size = float(np.linalg.norm(self.scale * rhs))
-        rest = float(np.linalg.norm(self.scale * (rhs - self.matrix @ x)))
+        size = norm(self.scale * rhs)
+        rest = norm(self.scale * (rhs - self.matrix @ x))
         return rest / size * self._known(rhs, among) if size > 0 else rest
 
     def _known(self, rhs: Floats, among: Floats | None) -> float:
@@ -166,7 +166,7 @@ class Factor:
         if among is None:
             return 1.0
         least = known_load(self.scale * among)
-        size = _length(self.scale * rhs)
+        size = norm(self.scale * rhs)
         return 1.0 if size >= least else size / least
 
     def weakest_unknown(self, x: Floats) -> int:
@@ -181,19 +181,19 @@ class Factor:
         solve = self.decomposition.solve
         inverse = LinearOperator(unit.shape, matvec=solve, rmatvec=solve, dtype=np.float64)
         with same_draws():
-            norm = onenormest(inverse)
-        return float(abs(unit).sum(axis=0).max() * norm)
+            largest = onenormest(inverse)
+        return float(abs(unit).sum(axis=0).max() * largest)
 
     def _refined(self, rhs: Floats, tolerance: float = 0.0) -> tuple[Floats, float, float]:
         load = self.scale * rhs
-        size = _length(load)
+        size = norm(load)
         if size == 0.0:
             return np.zeros_like(load), 0.0, 0.0
         x = self.apply(rhs)
         best, rest = x, np.inf
         for turn in range(self.solver.refinements + 1):
             residual = rhs - product(self.matrix, x)
-            found = _length(self.scale * residual) / size
+            found = norm(self.scale * residual) / size
             if not found < rest:
                 break
             # Rounding has the last word where a turn does not halve what is left; a shift is slow.
@@ -218,7 +218,7 @@ class Factor:
 
         inverse, goal = self.decomposition.solve, max(1e-14, tolerance)
         x = minimal_residual(product, inverse, load, directions=DIRECTIONS, tolerance=goal)
-        rest = float(np.linalg.norm(load - product(x))) / size
+        rest = norm(load - product(x)) / size
         return self.scale * x, rest
 
     @classmethod
@@ -226,11 +226,6 @@ class Factor:
         shifted = solver.deflated()
         parts = shifted.decompose(scaled(matrix, scale, shifted.shift))
         return cls(shifted, matrix, scale, parts, deflated=True)
-
-
-def _length(vector: Floats) -> float:
-    """Euclidean norm, as numpy's of a vector."""
-    return sqrt(float(vector @ vector))
 
 
 def _limit(growth: float) -> float:

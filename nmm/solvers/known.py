@@ -6,6 +6,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
+from nmm.solvers.norm import norm
 from nmm.solvers.unchecked import magnitudes
 
 LEAST = 1e-6
@@ -24,7 +25,7 @@ def known_load(among: Floats) -> float:
     Their rounding does work on motions without strain, where functions depend on one another, and
     nothing balances it. A load a million times as small as they are would be judged by that.
     """
-    return LEAST * float(np.sqrt(np.einsum("i,i->", among, among)))
+    return LEAST * norm(among)
 
 
 def is_rounding(
@@ -43,7 +44,7 @@ def is_rounding(
         bodies move far by little strain: the product is the difference of forces far larger than
         itself, and is known to the rounding of these (Higham 2002, 3.5).
     """
-    size, left = sum(_norm(part) for part in parts), _norm(force)
+    size, left = sum(norm(part) for part in parts), norm(force)
     if left < share * size:
         return True
     if left > RESOLVED * size:
@@ -53,8 +54,4 @@ def is_rounding(
 
 def gross(matrix: csc_array, at: Floats) -> float:
     """Return the size of what a matrix (n, n) times unknowns (n,) is the sum of."""
-    return _norm(magnitudes(matrix) @ np.abs(at))
-
-
-def _norm(vector: Floats) -> float:
-    return float(np.linalg.norm(vector))
+    return norm(magnitudes(matrix) @ np.abs(at))

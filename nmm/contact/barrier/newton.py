@@ -9,9 +9,9 @@ from nmm.contact.barrier.curve import Curves, LawPoints
 from nmm.contact.barrier.potential import Potential
 from nmm.contact.iteration.multiplier_rounds import compliances, stiff_springs
 from nmm.contact.iteration.tools import Tools
-from nmm.contact.problem.balance import length
 from nmm.errors import SolveError
 from nmm.solvers.linear import Factor
+from nmm.solvers.norm import norm
 
 Trials = tuple[Floats, Floats]
 
@@ -59,7 +59,7 @@ class Newton:
         self.curves = Curves(
             well, self.options.stiff * self.soft[0], self.options.stiff * self.soft[1]
         )
-        self.size = length(self.weight * well.problem.force) or 1.0
+        self.size = norm(self.weight * well.problem.force) or 1.0
         self.bound: Floats | None = None
         self.factorisations = self.solves = 0
 
@@ -120,7 +120,7 @@ class Newton:
         rest = problem.out_of_balance(increment, spot.pull.normal, spot.pull.shear)
         gap, slip = places[0] - spot.gap, places[1] - spot.slip
         parts = float(self.soft[0] @ gap**2 + self.soft[1] @ slip**2)
-        miss = float(np.sqrt(length(self.weight * rest) ** 2 + parts))
+        miss = float(np.sqrt(norm(self.weight * rest) ** 2 + parts))
         return _State(increment, trials, spot, rest, gap, slip, miss)
 
     def _balanced(self, at: _State, tolerance: float) -> bool:

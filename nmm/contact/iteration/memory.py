@@ -10,12 +10,12 @@ from integration.contraction import every
 from nmm.contact.islands.partition import Islands
 from nmm.contact.iteration.options.springs import MemoryOptions
 from nmm.contact.iteration.ways import Ways
-from nmm.contact.problem.balance import length
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.contact.problem.row_products import compressed
 from nmm.contact.problem.step_problem import Limits, StepAnswer, StepProblem
 from nmm.solvers.linear import Factor, LinearSolver
+from nmm.solvers.norm import norm
 
 STEP = ("force", "gap", "slip")
 """What stays from solution to solution of one step."""
@@ -55,9 +55,7 @@ class KeptFactor:
             (old.tangent_rows.data, problem.tangent_rows.data),
         )
         turn = self.options.turn
-        return all(
-            a is b or (len(a) == len(b) and length(a - b) <= turn * length(b)) for a, b in pairs
-        )
+        return all(a is b or (len(a) == len(b) and norm(a - b) <= turn * norm(b)) for a, b in pairs)
 
 
 @dataclass

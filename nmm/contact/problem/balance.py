@@ -6,6 +6,7 @@ from integration.arrays import Floats
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.contact.problem.row_products import pushed, terms_of_stretches
 from nmm.contact.problem.step_problem import StepProblem
+from nmm.solvers.norm import norm
 from nmm.solvers.unchecked import magnitudes
 
 # Sums of some ten products each are rounded some ten times.
@@ -24,15 +25,10 @@ def relative_residual(
     """
     inner = problem.matrix @ increment
     contact = problem.normal_rows.T @ normal + problem.tangent_rows.T @ shear
-    size = max(length(weight * part) for part in (inner, contact, problem.force))
+    size = max(norm(weight * part) for part in (inner, contact, problem.force))
     size = max(size, problem.least(weight))
-    rest = length(weight * (inner + contact - problem.force))
+    rest = norm(weight * (inner + contact - problem.force))
     return rest / size if size > 0 else 0.0
-
-
-def length(vector: Floats) -> float:
-    """Euclidean norm, without the threads that BLAS starts for long vectors."""
-    return float(np.sqrt(np.einsum("i,i->", vector, vector)))
 
 
 def rounding(springs: CutSprings, increment: Floats) -> float:
@@ -49,6 +45,6 @@ def rounding(springs: CutSprings, increment: Floats) -> float:
     left = sum(magnitudes(part).T @ one for part, one in zip(rows, lost, strict=True))
     held = pushed(*rows, *forces)
     inner = problem.matrix @ increment
-    whole = max(length(springs.weight * part) for part in (inner, held, problem.force))
+    whole = max(norm(springs.weight * part) for part in (inner, held, problem.force))
     whole = max(whole, problem.least(springs.weight))
-    return min(length(springs.weight * left) / whole, WORST) if whole > 0 else 0.0
+    return min(norm(springs.weight * left) / whole, WORST) if whole > 0 else 0.0
