@@ -10,8 +10,9 @@ from integration.arrays import Floats
 from integration.contraction import contract
 from nmm.assembly.elements import element_matrices
 from nmm.assembly.elements.solid import Solid
-from nmm.assembly.projected_volumes.excess import VOLUME, excess, held_pressures
+from nmm.assembly.projected_volumes.excess import excess, held_pressures
 from nmm.assembly.projected_volumes.pressures import Pressures
+from nmm.materials.tensors import ISOTROPIC
 
 
 @dataclass(frozen=True)
@@ -59,7 +60,9 @@ class ElasticSolid(Solid):
     @cached_property
     def drained(self) -> Floats:
         """(E, 3, 3) stress from strain without what pressures hold (Pa)."""
-        return np.asarray(self.elasticity - self.bulk[:, None, None] * np.outer(VOLUME, VOLUME))
+        return np.asarray(
+            self.elasticity - self.bulk[:, None, None] * np.outer(ISOTROPIC, ISOTROPIC)
+        )
 
     @cached_property
     def _excess(self) -> Floats:
@@ -86,4 +89,4 @@ class ElasticSolid(Solid):
             return np.asarray(contract("eij,ej->ei", self.elasticity, strain))
         assert self.pressures is not None
         mean = (self.pressures.integrals(self.manifold) @ known) / self.element_area
-        return np.asarray(contract("eij,ej->ei", self.drained, strain) + mean[:, None] * VOLUME)
+        return np.asarray(contract("eij,ej->ei", self.drained, strain) + mean[:, None] * ISOTROPIC)

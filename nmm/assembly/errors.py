@@ -8,7 +8,7 @@ import numpy as np
 from integration.arrays import Floats
 from integration.rules import PointRule, polygon_rule
 from nmm.assembly.model import Model
-from nmm.assembly.projected_volumes.excess import VOLUME
+from nmm.materials.tensors import ISOTROPIC
 
 Field = Callable[[Floats], Floats]
 
@@ -70,7 +70,7 @@ def stresses(
     assert model.pressures is not None
     mean = model.pressures.rows(model.manifold, rule.owner, rule.points) @ known
     drained = np.einsum("mij,mj->mi", model.drained[rule.owner], strain)
-    return np.asarray(drained + mean[:, None] * VOLUME)
+    return np.asarray(drained + mean[:, None] * ISOTROPIC)
 
 
 def _energy(model: Model, rule: PointRule, strain: Floats) -> float:

@@ -20,8 +20,6 @@ StressAt = Callable[[Ints, Floats, float], Floats]
 """Stress (m, 3) in Pa in body axes from elements, their reference points (m, 2) and a time (s)."""
 PressureAt = Callable[[Ints, Floats, float], Floats]
 """Pressure (m,) in Pa of what fills pores, from the same."""
-# Strain or stress (xx, yy, xy) of one in all directions of the plane.
-ISOTROPIC = np.array([1.0, 1.0, 0.0])
 
 
 @dataclass(frozen=True)

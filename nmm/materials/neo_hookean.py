@@ -8,6 +8,7 @@ from integration.arrays import Floats
 from nmm.errors import FormulationError
 from nmm.materials.base import FiniteResponse
 from nmm.materials.elastic import Elastic
+from nmm.materials.tensors import ISOTROPIC
 
 # Newton's method for the stretch across a sheet: as many iterations, and the share of a stretch of
 # one that the last may move it by.
@@ -44,8 +45,7 @@ class NeoHookean(Elastic):
             log = log + np.log1p(across) / 2
             energy = mu / 2 * (growth + across - 2 * log) + lame / 2 * log**2
             inverse = np.stack([1 + 2 * eyy, 1 + 2 * exx, -twice], axis=1) / (1 + area)[:, None]
-        straight = np.array([1.0, 1.0, 0.0])
-        stress = mu * (straight - inverse) + (lame * log)[:, None] * inverse
+        stress = mu * (ISOTROPIC - inverse) + (lame * log)[:, None] * inverse
         # d ln J / dE is the inverse of C, times what the sheet across gives way.
         volume = np.full_like(log, lame)
         if plane == "stress":

@@ -7,9 +7,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.materials.base import History, Response
 from nmm.materials.elastic import Elastic, elastic_energy
-
-EVEN = np.array([1.0, 1.0, 0.0, 1.0])
-"""Unit isotropic strain (xx, yy, 2 xy, zz)."""
+from nmm.materials.tensors import SPHERICAL, TWICE
 
 
 @dataclass(frozen=True)
@@ -56,7 +54,7 @@ class Plastic(Elastic):
 def inelastic(history: History) -> Floats:
     """Return the inelastic strain (m, 4: xx, yy, 2 xy, zz): plastic and thermal."""
     flow, swelling = history["plastic_strain"], history.get("swelling")
-    return flow if swelling is None else flow + swelling * EVEN
+    return flow if swelling is None else flow + swelling * SPHERICAL
 
 
 def flowed(
@@ -68,7 +66,7 @@ def flowed(
     """
     swelling = history.get("swelling")
     variables = {
-        "plastic_strain": strain if swelling is None else strain - swelling * EVEN,
+        "plastic_strain": strain if swelling is None else strain - swelling * SPHERICAL,
         "accumulated_plastic_strain": accumulated[:, None],
         "stress_zz": stress[:, 3:],
     }
@@ -84,6 +82,6 @@ def grown(history: History, strain: Floats) -> Floats:
     if strain is before:  # nothing flows
         return history["accumulated_plastic_strain"][:, 0]
     flow = strain - before
-    flow = flow - flow[:, [0, 1, 3]].sum(axis=1)[:, None] / 3 * EVEN
-    size = np.sqrt(2 / 3 * (np.array([1, 1, 0.5, 1]) * flow**2).sum(axis=1))
+    flow = flow - flow[:, [0, 1, 3]].sum(axis=1)[:, None] / 3 * SPHERICAL
+    size = np.sqrt(2 / 3 * (flow**2 / TWICE).sum(axis=1))
     return np.asarray(history["accumulated_plastic_strain"][:, 0] + size)

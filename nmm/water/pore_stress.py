@@ -14,8 +14,9 @@ from integration.arrays import Floats
 from nmm.assembly.finite_strain.finite_matter import FiniteMatter
 from nmm.assembly.finite_strain.gradients import volumes
 from nmm.assembly.state import State
-from nmm.assembly.stress_points import ISOTROPIC, StressAt
+from nmm.assembly.stress_points import StressAt
 from nmm.effects.base import Instant, Span, StepForce
+from nmm.materials.tensors import ISOTROPIC
 
 # Derivative of the cofactors (xx, xy, yx, yy) by the deformation gradient.
 TURNING = np.fliplr(np.diag([1.0, -1.0, -1.0, 1.0]))

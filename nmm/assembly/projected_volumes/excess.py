@@ -11,8 +11,6 @@ from nmm.errors import FormulationError
 # Volume is resisted in every point up to this many shear moduli, by pressures beyond: a Poisson
 # ratio of 1/3 in plane strain. No material in plane stress goes beyond.
 DRAINED = 2.0
-# Volume from strain, and a pressure's stress.
-VOLUME = np.array([1.0, 1.0, 0.0])
 
 
 def excess(elasticity: Floats) -> Floats:

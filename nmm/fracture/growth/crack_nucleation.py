@@ -10,7 +10,7 @@ import numpy as np
 from integration.arrays import Floats
 from integration.rules import PointRule
 from nmm.assembly.state import State
-from nmm.assembly.stress_points import ISOTROPIC, PressureAt, StressAt
+from nmm.assembly.stress_points import PressureAt, StressAt
 from nmm.effects.base import Setup
 from nmm.effects.event import Event
 from nmm.fracture.acting_stress import acting_stress
@@ -18,6 +18,7 @@ from nmm.fracture.growth.refusals import refuse_nucleation, short_nuclei
 from nmm.fracture.growth.rule import ROUNDING
 from nmm.fracture.growth.tips.intensities import tip_moduli
 from nmm.fracture.toughness import Toughness
+from nmm.materials.tensors import ISOTROPIC
 
 if TYPE_CHECKING:
     from nmm.fracture.nucleation.nuclei import Nuclei, Nucleus

@@ -18,10 +18,9 @@ from nmm.materials.return_mapping.planes import (
     StrengthLoss,
     return_to_planes,
 )
-from nmm.materials.return_mapping.radial_return import DEVIATOR, TWICE, VOLUME
 from nmm.materials.return_mapping.turning_planes import planes_between
+from nmm.materials.tensors import DEVIATOR, ISOTROPIC, SPHERICAL, TWICE
 
-MEAN = np.array([1.0, 1.0, 0.0, 1.0])
 # Lines that act together: the cone, the cap, their corner.
 ACTING = ([0], [1], [0, 1])
 
@@ -68,7 +67,7 @@ class SmoothCone:
     @cached_property
     def elastic(self) -> Floats:
         """(3, 3) stresses from strains (xx, yy, 2 xy) in plane strain (Pa)."""
-        return np.asarray(2 * self.shear * DEVIATOR + self.bulk * np.outer(VOLUME, VOLUME))
+        return np.asarray(2 * self.shear * DEVIATOR + self.bulk * np.outer(ISOTROPIC, ISOTROPIC))
 
     def flows(self, stress: Floats, done: Floats) -> Bools:
         """Return where (m,) deviator and mean stress (m, 2) exceed the surface."""
@@ -98,12 +97,12 @@ def cone_return(
     """Return stresses to the cone; ``strain`` (m, 3) whole, ``plastic`` (m, 4) before."""
     elastic = np.column_stack([strain, np.zeros(len(strain))]) - plastic
     volume = elastic[:, [0, 1, 3]].sum(axis=1)
-    deviator = 2 * cone.shear * (elastic * np.array([1, 1, 0.5, 1]) - volume[:, None] / 3 * MEAN)
+    deviator = 2 * cone.shear * (elastic / TWICE - volume[:, None] / 3 * SPHERICAL)
     size = np.sqrt((TWICE * deviator**2).sum(axis=1) / 2)
     trial = np.column_stack([size, cone.bulk * volume])
     # One tangent for all points, copied where some flow.
     tangent = np.broadcast_to(cone.elastic, (len(trial), 3, 3))
-    stress = deviator + trial[:, 1:] * MEAN
+    stress = deviator + trial[:, 1:] * SPHERICAL
     flows = np.flatnonzero(cone.flows(trial, weakening.done))
     if not len(flows):
         return ReturnedStress(stress, tangent, plastic, weakening.done)
@@ -125,9 +124,9 @@ def _returned(
     size = trial[:, 0]
     shaped = np.where(size > 0, size, 1.0)
     left = np.where(size > 0, after[:, 0] / shaped, 1.0)
-    stress = left[:, None] * deviator + after[:, 1:] * MEAN
+    stress = left[:, None] * deviator + after[:, 1:] * SPHERICAL
     flow = (1 - left)[:, None] * deviator / 2 / cone.shear
-    flow = flow + ((trial - after)[:, 1] / 3 / cone.bulk)[:, None] * MEAN
+    flow = flow + ((trial - after)[:, 1] / 3 / cone.bulk)[:, None] * SPHERICAL
     tangent = _tangent(left, deviator[:, :3] / shaped[:, None], change, cone)
     return ReturnedStress(stress, tangent, flow * TWICE, done)
 
@@ -139,7 +138,7 @@ def _tangent(left: Floats, way: Floats, change: Floats, cone: SmoothCone) -> Flo
     ``change`` (m, 2, 2) the derivative of size and mean stress by those of the trial.
     """
     turn = cone.shear * way[:, :, None] * way[:, None, :]
-    volume = np.broadcast_to(VOLUME, way.shape)
+    volume = np.broadcast_to(ISOTROPIC, way.shape)
     sides = np.stack([way, volume], axis=2)
     rises = np.stack([cone.shear * way, cone.bulk * volume], axis=1)
     kept = left[:, None, None] * (2 * cone.shear * DEVIATOR - turn)

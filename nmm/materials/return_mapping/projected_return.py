@@ -7,7 +7,8 @@ diagonal, so that the return is one equation for one multiplier a point (Simo an
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.materials.return_mapping.radial_return import BEYOND, RadialReturn
+from nmm.materials.return_mapping.planes import BEYOND
+from nmm.materials.return_mapping.radial_return import RadialReturn
 
 # Iterations for the multiplier; from zero they rise to it, three or four are enough.
 MOST, ENOUGH = 50, 1e-14

@@ -5,15 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Floats
-
-# Share of the yield stress by which rounding leaves a stress beyond it: such a point is elastic.
-BEYOND = 1e-10
-VOLUME = np.array([1.0, 1.0, 0.0])
-# From strain (xx, yy, 2 xy) to the deviatoric strain (xx, yy, xy) where nothing strains along z.
-DEVIATOR = np.array([[2 / 3, -1 / 3, 0.0], [-1 / 3, 2 / 3, 0.0], [0.0, 0.0, 0.5]])
-NORMAL = np.array([1.0, 1.0, 0.0, 1.0])
-# Components xy count twice in the norm of a tensor (xx, yy, xy, zz).
-TWICE = np.array([1.0, 1.0, 2.0, 1.0])
+from nmm.materials.return_mapping.planes import BEYOND
+from nmm.materials.tensors import DEVIATOR, ISOTROPIC, SPHERICAL, TWICE
 
 
 @dataclass(frozen=True)
@@ -48,26 +41,26 @@ def radial_return(
     shear, bulk = e / 2 / (1 + nu), e / 3 / (1 - 2 * nu)
     elastic = np.column_stack([strain, np.zeros(len(strain))]) - plastic
     elastic[:, 2] /= 2
-    volume = elastic @ NORMAL
-    trial, mean = 2 * shear * (elastic - np.outer(volume / 3, NORMAL)), bulk * volume
+    volume = elastic @ SPHERICAL
+    trial, mean = 2 * shear * (elastic - np.outer(volume / 3, SPHERICAL)), bulk * volume
     norm = np.sqrt(trial**2 @ TWICE)
     size = np.sqrt(1.5) * norm
     limit = yields + hardens * accumulated
     flows = size > limit * (1 + BEYOND)
-    elastic_tangent = bulk * np.outer(VOLUME, VOLUME) + 2 * shear * DEVIATOR
+    elastic_tangent = bulk * np.outer(ISOTROPIC, ISOTROPIC) + 2 * shear * DEVIATOR
     if not flows.any():
-        stress = trial + np.outer(mean, NORMAL)
+        stress = trial + np.outer(mean, SPHERICAL)
         tangent = np.broadcast_to(elastic_tangent, (len(strain), 3, 3))
         return RadialReturn(stress, tangent, plastic, accumulated)
     more = np.where(flows, (size - limit) / (3 * shear + hardens), 0.0)
     way = trial / np.where(norm > 0, norm, 1.0)[:, None]
     left = 1 - 3 * shear * more / np.where(flows, size, 1.0)
-    stress = left[:, None] * trial + np.outer(mean, NORMAL)
+    stress = left[:, None] * trial + np.outer(mean, SPHERICAL)
     grown = plastic + np.sqrt(1.5) * more[:, None] * way * TWICE
     softer = np.where(flows, 3 * shear / (3 * shear + hardens) - (1 - left), 0.0)
     along = way[:, :3]
     tangent = (
-        bulk * np.outer(VOLUME, VOLUME)
+        bulk * np.outer(ISOTROPIC, ISOTROPIC)
         + 2 * shear * left[:, None, None] * DEVIATOR
         - 2 * shear * softer[:, None, None] * along[:, :, None] * along[:, None, :]
     )

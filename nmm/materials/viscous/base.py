@@ -18,11 +18,10 @@ from integration.arrays import Floats
 from nmm.errors import FormulationError
 from nmm.materials.base import History, Response
 from nmm.materials.elastic import Elastic
-from nmm.materials.return_mapping.radial_return import TWICE
+from nmm.materials.tensors import ISOTROPIC, SPHERICAL, TWICE
 
-MEAN = np.array([1.0, 1.0, 0.0, 1.0])
 # From strain (xx, yy, 2 xy, zz) to the deviator (xx, yy, xy, zz) of the tensor.
-SHAPE = np.diag([1.0, 1.0, 0.5, 1.0]) - np.outer(MEAN, MEAN) / 3
+SHAPE = np.diag([1.0, 1.0, 0.5, 1.0]) - np.outer(SPHERICAL, SPHERICAL) / 3
 
 
 class Rheology(NamedTuple):
@@ -121,7 +120,7 @@ def _of_step(law: Viscous, plane: str, step: float) -> Floats:
     strain, before, old, swelling = np.split(np.eye(8 + 4 * n), [3, 7, 7 + 4 * n], axis=1)
     kept = old.reshape(len(old), n, 4) * np.exp(-step / times)[:, None]
     known = 2 * spring * before + kept.sum(axis=1) - 2 * stiff * before
-    strain = strain - swelling * MEAN[:3]
+    strain = strain - swelling * ISOTROPIC
     if plane == "strain":  # what swells is held across
         across = -swelling[:, 0]
     else:
@@ -129,7 +128,7 @@ def _of_step(law: Viscous, plane: str, step: float) -> Floats:
         across = (pressed - known[:, 3]) / (4 / 3 * stiff + law.bulk)
     whole = np.column_stack([strain, across])
     shape = whole @ SHAPE
-    stress = known + 2 * stiff * shape + law.bulk * np.outer(whole @ MEAN, MEAN)
+    stress = known + 2 * stiff * shape + law.bulk * np.outer(whole @ SPHERICAL, SPHERICAL)
     gains = (2 * moduli * _share(step / times))[:, None] * (shape - before)[:, None]
     return np.hstack([stress, shape, (kept + gains).reshape(len(old), 4 * n)])
 
