@@ -20,9 +20,9 @@ def undetermined(problem: DiffusionProblem) -> Ints:
     for edge in problem.edges:  # a handful
         passed = passed + csr_array(owner.T @ (edge.matrix @ owner))
     given_away = np.abs(np.asarray(passed @ np.ones(n)))
-    held = given_away > ROUNDING * abs(passed).max(axis=1).toarray().ravel()
-    held[space.body[~problem.free]] = True
+    told = given_away > ROUNDING * abs(passed).max(axis=1).toarray().ravel()
+    told[space.body[~problem.free]] = True
     count, part = connected_components(passed, directed=False)
     known = np.zeros(count, dtype=bool)
-    known[part[held]] = True
+    known[part[told]] = True
     return np.flatnonzero(~known[part])

@@ -197,10 +197,10 @@ class FieldEffect(Effect):
         before, after = (one.manifold.element_region for one in (change.old, change.new))
         if np.array_equal(np.unique(before), np.unique(after)):
             return 0.0
-        held, holds = self.course.problem.stored, new.course.problem.stored
+        stored, stores = self.course.problem.stored, new.course.problem.stored
         begun = type(self).from_setup(change.before).here(change.before.start.time)
-        had = held(self.here(change.state.time).unknowns) - held(begun.unknowns)
-        return holds(field) - holds(start) - had
+        had = stored(self.here(change.state.time).unknowns) - stored(begun.unknowns)
+        return stores(field) - stores(start) - had
 
 
 def course_of(
@@ -210,6 +210,6 @@ def course_of(
     asked, start = setup.formulation.diffusion or Diffusion(), None
     if initial is not None:
         time = setup.start.time * second
-        unknowns = np.where(problem.free, initial, problem.held(time))
+        unknowns = np.where(problem.free, initial, problem.prescribed(time))
         start = FieldAt(time, unknowns, {})
     return FieldCourse(problem, start, asked.theta, asked.step)

@@ -13,7 +13,7 @@ from integration.arrays import Bools, Floats
 from nmm.assembly.places import Place, on_segment
 from nmm.diffusion.determined import undetermined
 from nmm.diffusion.edges import Edge, Factor, of_history
-from nmm.diffusion.holding import held
+from nmm.diffusion.holding import prescribed
 from nmm.diffusion.joints import Conductance, JointParts, across_blocks, across_cracks
 from nmm.diffusion.matrices import integrals, products, slopes
 from nmm.diffusion.problem import (
@@ -70,7 +70,7 @@ class FieldTables:
         (E, 2, 2) flux for each unit of slope.
     capacity
         (E,) what a unit of volume stores for each unit of the field; None where it is steady.
-    held, exchanges, inflows, sources
+    prescribed, exchanges, inflows, sources
         Tables of values, of surroundings, of fluxes and of volumes.
     conductance
         Of the joint of an interface of the scene.
@@ -82,7 +82,7 @@ class FieldTables:
 
     conductivity: Floats
     capacity: Floats | None
-    held: Sequence[GivenTable]
+    prescribed: Sequence[GivenTable]
     exchanges: Sequence[GivenTable]
     inflows: Sequence[GivenTable]
     sources: Sequence[GivenTable]
@@ -168,13 +168,13 @@ def _place(setup: Setup, given: GivenTable) -> Place:
 def _edges(setup: Setup, space: ScalarSpace, tables: FieldTables) -> Iterator[Edge]:
     """Yield the conditions on the boundary."""
     model = setup.model
-    for one in tables.held:  # a handful
+    for one in tables.prescribed:  # a handful
         if one.item.segment is not None:
             assert one.values is not None
             place = _place(setup, one)
             values = one.values(place.position)
             fixed = (space, model, tables.conductivity, place, values, one.item.name)
-            edge = held(*fixed, one.factor)
+            edge = prescribed(*fixed, one.factor)
             yield edge if one.besides is None else replace(edge, inflow=one.besides(place))
     for one in (*tables.inflows, *tables.exchanges):  # a handful
         place = _place(setup, one)
@@ -213,7 +213,7 @@ def _sources(setup: Setup, space: ScalarSpace, tables: FieldTables) -> Iterator[
 
 def _given(setup: Setup, space: ScalarSpace, tables: FieldTables) -> Iterator[GivenField]:
     """Yield prescribed fields of whole blocks."""
-    for one in tables.held:  # a handful
+    for one in tables.prescribed:  # a handful
         if one.item.segment is None:
             assert one.values is not None
             inside = _elements(setup, one.item.block)

@@ -24,7 +24,7 @@ from nmm.diffusion.matrices import slope_integrals
 SAFETY = 4.0
 
 
-def held(
+def prescribed(
     space: ScalarSpace,
     model: Model,
     conductivity: Floats,

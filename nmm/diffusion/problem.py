@@ -110,7 +110,7 @@ class DiffusionProblem:
             total += source.factor(time) * source.load
         return total
 
-    def held(self, time: float) -> Floats:
+    def prescribed(self, time: float) -> Floats:
         """Unknowns (n,) of prescribed fields, zero elsewhere; later ones overwrite earlier ones."""
         total = np.zeros(self.space.n)
         for one in self.given:  # a handful
@@ -146,7 +146,7 @@ class DiffusionProblem:
     def _flows_nowhere(self, unknowns: Floats) -> bool:
         """Whether a field (n,) without loads is uniform; small loads would add up."""
         free = self.free
-        if self.load(0.0).any() or not np.array_equal(unknowns[~free], self.held(0.0)[~free]):
+        if self.load(0.0).any() or not np.array_equal(unknowns[~free], self.prescribed(0.0)[~free]):
             return False
         flows, all_ways = self.matrix @ unknowns, abs(self.matrix) @ np.abs(unknowns)
         return bool(np.all(np.abs(flows)[free] <= ROUNDED * all_ways[free]))
@@ -223,7 +223,7 @@ class DiffusionProblem:
     def _solved(self, step: float, force: Floats, time: float) -> Floats:
         """Solve for what is free in the system of a step (s), see `_system`."""
         matrix, factor = self._system(step)
-        found = self.held(time)
+        found = self.prescribed(time)
         if factor is None:
             return found
         free, force = self.free, force - matrix @ found

@@ -15,13 +15,13 @@ class Event:
         Blocks and cracks after it, in the present reference configuration.
     what
         What happens, in words for the summary, as "2 blocks split".
-    held
-        Whether forces hold new faces together at first, so that accelerations are continuous.
+    continuous
+        Whether accelerations are: forces hold new faces together at first.
     exact
         Whether the load of the event is searched for; else the end of a step near it will do.
     """
 
     geometry: Geometry
     what: str
-    held: bool = False
+    continuous: bool = False
     exact: bool = True

@@ -33,7 +33,7 @@ def heat_problem(setup: Setup, space: ScalarSpace) -> DiffusionProblem:
     reference, stored = scene.heat.reference, None
     if scene.heat.transient:
         stored = of_elements(setup, "density") * of_elements(setup, "heat_capacity")
-    held = [
+    prescribed = [
         GivenTable("temperatures", one, partial(sloping, one, one.temperature - reference))
         for one in scene.temperatures
     ]
@@ -44,7 +44,7 @@ def heat_problem(setup: Setup, space: ScalarSpace) -> DiffusionProblem:
     tables = FieldTables(
         conductivity=conductivities(setup, "conductivity"),
         capacity=stored,
-        held=held,
+        prescribed=prescribed,
         exchanges=around,
         inflows=[GivenTable("heat_fluxes", one, amount=one.flux) for one in scene.heat_fluxes],
         sources=[GivenTable("heat_sources", one, amount=one.power) for one in scene.heat_sources],

@@ -114,10 +114,10 @@ class Heat(FieldEffect):
         if self.strain is None:
             return 0.0
         rise = self.acting(state.time)
-        held = self.strain.energy(rise)
+        stored = self.strain.energy(rise)
         if self._turned is not None:
-            return held + self._turned.energy(state)
-        return held - float(self.strain.force(rise) @ state.deformation)
+            return stored + self._turned.energy(state)
+        return stored - float(self.strain.force(rise) @ state.deformation)
 
     def work(self, before: State, after: State) -> float:
         """Work (J) of the stress on minus the thermal strain, by the mean of both ends."""

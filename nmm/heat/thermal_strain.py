@@ -55,10 +55,10 @@ class ThermalStrain(FieldStress):
 
     def energy(self, unknowns: Floats) -> float:
         """Elastic energy (J) of a temperature (n,) in constrained material."""
-        return float(unknowns @ (self.held @ unknowns)) / 2
+        return float(unknowns @ (self._constrained @ unknowns)) / 2
 
     @cached_property
-    def held(self) -> csc_array:
+    def _constrained(self) -> csc_array:
         """(n, n) matrix of the energy of constrained material: half its quadratic form."""
         density = (self.expansion * self.stress).sum(axis=1)
         return products(self.space, self.model.thickness * density)

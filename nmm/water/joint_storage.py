@@ -203,7 +203,7 @@ class JointStorage(JointWater):
         missing = matrix @ head - (self._store(state) * began.head - (volume - began.volume))
         taken = {
             one.name: began.taken.get(one.name, 0.0) + float(missing[one.nodes].sum())
-            for one in self.held
+            for one in self.prescribed
         }
         return WaterStored(time, head, volume, taken)
 

@@ -23,7 +23,7 @@ from nmm.water.wet_joints import NEAR, WetJoints
 
 
 @dataclass(frozen=True)
-class HeldHead:
+class PrescribedHead:
     """A prescribed head (k,) (m) at nodes (k,) of the network, and its factor."""
 
     name: str
@@ -41,7 +41,7 @@ class JointWater(Effect):
         The joints as places, and as a network.
     aperture, least
         Initial and residual apertures (j,) (m).
-    held
+    prescribed
         Prescribed heads; later ones overwrite earlier ones.
     weight
         Unit weight of water (N/m3).
@@ -56,11 +56,11 @@ class JointWater(Effect):
         sites: WetJoints,
         network: JointNetwork,
         aperture: tuple[Floats, Floats],
-        held: list[HeldHead],
+        prescribed: list[PrescribedHead],
         weight: float,
         n_unknowns: int,
     ) -> None:
-        self.sites, self.network, self.held = sites, network, held
+        self.sites, self.network, self.prescribed = sites, network, prescribed
         self._initial, self._residual = aperture
         self.weight, self.n_unknowns = weight, n_unknowns
         self._openings = KeptOfPlaces(sites.opening)
@@ -84,9 +84,9 @@ class JointWater(Effect):
         mobility = weight / (12 * scene.joint_flow.viscosity)
         length = sites.joints.length
         network = JointNetwork(sites.nodes, length, len(sites.places), mobility)
-        held = _held(setup, sites)
+        prescribed = _prescribed(setup, sites)
         aperture, n_unknowns = (initial[wet], residual[wet]), model.manifold.n_unknowns
-        return cls(sites, network, aperture, held, weight, n_unknowns)
+        return cls(sites, network, aperture, prescribed, weight, n_unknowns)
 
     @property
     def about(self) -> str:
@@ -94,7 +94,7 @@ class JointWater(Effect):
 
     @property
     def steady(self) -> bool:
-        return all(one.factor is steadily for one in self.held)
+        return all(one.factor is steadily for one in self.prescribed)
 
     def apertures(self, state: State) -> Floats:
         """Apertures (j, 2) at the ends of the joints (m)."""
@@ -138,7 +138,9 @@ class JointWater(Effect):
         heads, aperture = self.heads(state, state.time), self.apertures(state)
         inflow = self.network.inflow(self.network.conductance(aperture), heads)
         thick = self.sites.interface.area.sum() / self.sites.joints.length.sum()
-        found = {f"inflow:{one.name}": float(thick * inflow[one.nodes].sum()) for one in self.held}
+        found = {
+            f"inflow:{one.name}": float(thick * inflow[one.nodes].sum()) for one in self.prescribed
+        }
         pressure = float(self.pressures(state, state.time).max())
         return {**found, "pressure": pressure, "aperture": float(aperture.max())}
 
@@ -151,7 +153,7 @@ class JointWater(Effect):
     def given(self, time: float) -> tuple[Ints, Floats]:
         """Nodes (k,) with a prescribed head, and the heads (k,) (m); later tables count."""
         heads = np.full(self.network.n, np.nan)
-        for one in self.held:  # a handful
+        for one in self.prescribed:  # a handful
             heads[one.nodes] = one.factor(time) * one.head
         nodes = np.flatnonzero(~np.isnan(heads))
         return nodes, heads[nodes]
@@ -193,7 +195,7 @@ def _apertures(setup: Setup, edge_a: Ints, edge_b: Ints) -> tuple[Floats, Floats
     return initial, residual
 
 
-def _held(setup: Setup, sites: WetJoints) -> list[HeldHead]:
+def _prescribed(setup: Setup, sites: WetJoints) -> list[PrescribedHead]:
     near = NEAR * float(np.hypot(*np.ptp(setup.model.manifold.elements.points, axis=0)))
     found = []
     for item in setup.scene.joint_heads:  # a handful
@@ -204,7 +206,7 @@ def _held(setup: Setup, sites: WetJoints) -> list[HeldHead]:
             shown, expected = str(item.segment or item.point), "a place where a joint ends"
             raise SceneError(Fault(place, shown, expected, "move it to the end of a joint"))
         head = np.full(len(nodes), item.head - setup.origin[1])
-        found.append(HeldHead(item.name, nodes, head, of_history(item.history)))
+        found.append(PrescribedHead(item.name, nodes, head, of_history(item.history)))
     return found
 
 

@@ -58,7 +58,7 @@ class MovingSurface(FreeSurface):
             That fails, too.
         """
         found = before.copy()
-        found[~self.free] = self.held(end)[~self.free]
+        found[~self.free] = self.prescribed(end)[~self.free]
         try:
             return self._filled(found, before, begin, end, 1.0)
         except SolveError:

@@ -199,7 +199,7 @@ def _filling(setup: Setup, space: ScalarSpace) -> "Filling":
     return Filling.of(space, thickness * conductivities(setup, "hydraulic_conductivity"))
 
 
-def _held(
+def _prescribed(
     setup: Setup, one: "HeadTable", filling: "Filling | None", conductivity: Floats
 ) -> GivenTable:
     """Return a prescribed head; with a free surface the pressure is zero above the water."""
@@ -228,12 +228,12 @@ def _problem(
     assert scene.seepage is not None
     stored = of_elements(setup, "specific_storage") if scene.seepage.transient else None
     conductivity = conductivities(setup, "hydraulic_conductivity")
-    held = [_held(setup, one, filling, conductivity) for one in scene.heads]
+    prescribed = [_prescribed(setup, one, filling, conductivity) for one in scene.heads]
     inflows = [GivenTable("inflows", one, amount=one.velocity) for one in scene.inflows]
     tables = FieldTables(
         conductivity=conductivity,
         capacity=stored,
-        held=held,
+        prescribed=prescribed,
         exchanges=[],
         inflows=inflows,
         sources=[],

@@ -33,7 +33,7 @@ class MemberEnds:
     ----------
     points
         m material points; those for ends on the ground are not used.
-    held
+    on_block
         (m,) 1 on a body, 0 on the ground.
     position
         (m, 2) reference places (m).
@@ -42,21 +42,21 @@ class MemberEnds:
     """
 
     points: MaterialPoints
-    held: Floats
+    on_block: Floats
     position: Floats
     element: Ints
 
     @classmethod
     def at(cls, setup: Setup, position: Floats, elements: Ints) -> Self:
         """Return ends at positions (m, 2) (m) in elements (m,); -1 is the ground."""
-        held, manifold = elements >= 0, setup.model.manifold
+        on_block, manifold = elements >= 0, setup.model.manifold
         # Covers need not contain points of the ground: a point of a body takes their place.
-        reached = np.where(held[:, None], position, manifold.elements.points[0])
+        reached = np.where(on_block[:, None], position, manifold.elements.points[0])
         points = material_points(manifold, np.maximum(elements, 0), reached)
-        return cls(points, held.astype(float), position, elements)
+        return cls(points, on_block.astype(float), position, elements)
 
     def __len__(self) -> int:
-        return len(self.held)
+        return len(self.on_block)
 
     def way(self, state: State) -> Floats:
         """Return the displacements (m, 2) (m)."""
@@ -67,7 +67,7 @@ class MemberEnds:
         return KeptOfPlaces(self._way)
 
     def _way(self, state: State) -> Floats:
-        return self.held[:, None] * self.points.moved(state.frames, state.deformation)
+        return self.on_block[:, None] * self.points.moved(state.frames, state.deformation)
 
     def pushed(self, force: Floats) -> AppliedForces:
         """Return the forces (m, 2) (N) of the ends on bodies."""
@@ -76,7 +76,7 @@ class MemberEnds:
 
     def along(self, frames: Frames, directions: Floats) -> Floats:
         """Rows (m, L) of the motion along global directions (m, 2), in the axes of the bodies."""
-        return self.held[:, None] * self.points.along(frames, directions)
+        return self.on_block[:, None] * self.points.along(frames, directions)
 
     def arm(self, before: State, after: State) -> Floats:
         """Lever arms (m, 2) at the middle of a step, minus those at its start (m)."""
@@ -84,7 +84,7 @@ class MemberEnds:
         way = (self.way(before) + self.way(after)) / 2
         centre = (frames.centre[body] + after.frames.centre[body]) / 2
         first = frames.to_global(body, self.points.arm)
-        return np.asarray(self.held[:, None] * (self.position + way - centre - first))
+        return np.asarray(self.on_block[:, None] * (self.position + way - centre - first))
 
 
 def ends_of(

@@ -88,13 +88,13 @@ class Links:
     def bodies(self) -> Ints:
         """Numbers of the bodies that they are connected to."""
         return np.unique(
-            np.concatenate([end.points.body[end.held > 0] for end in (self.first, self.second)])
+            np.concatenate([end.points.body[end.on_block > 0] for end in (self.first, self.second)])
         )
 
     @property
     def grounded(self) -> bool:
         """Whether any end is on the ground."""
-        return bool((self.first.held * self.second.held == 0).any())
+        return bool((self.first.on_block * self.second.on_block == 0).any())
 
     def way(self, state: State) -> Floats:
         """Return the displacement of second ends relative to first ones (m, 2) (m)."""

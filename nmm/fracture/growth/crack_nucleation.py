@@ -93,7 +93,7 @@ class CrackNucleation:
                 found = found + ISOTROPIC * pressure(rule.owner, rule.points, state.time)[:, None]
         return found
 
-    def event(self, state: State, held: bool) -> Event | None:
+    def event(self, state: State, continuous: bool) -> Event | None:
         """Return the event of a new crack where the criterion is met; else None."""
         nucleus = self.next(state)
         if nucleus is None or nucleus.share < 1 - ROUNDING:
@@ -102,7 +102,7 @@ class CrackNucleation:
         geometry, (x, y) = self._setup.geometry, nucleus.point + self._setup.origin
         number, line = len(geometry.cracks), self._nuclei.line_of(nucleus)
         laid = replace(geometry, cracks=(*geometry.cracks, line), nuclei=(*geometry.nuclei, number))
-        return Event(laid, f"a crack began at [{x:.6g}, {y:.6g}]", held=held)
+        return Event(laid, f"a crack began at [{x:.6g}, {y:.6g}]", continuous=continuous)
 
     def history(self, state: State) -> Mapping[str, float]:
         """Return the largest ratio to the strength and its place (m), for the history."""

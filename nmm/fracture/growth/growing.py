@@ -38,7 +38,7 @@ class GrowingCracks(Effect):
 
     name = "fracture"
     external = False
-    held: ClassVar[bool] = False
+    continuous: ClassVar[bool] = False
     """Whether the tractions on new faces are released gradually (`ReleasedTractions`)."""
     at_toughness: bool = False
     """Whether the load keeps cracks at their toughness, so that they free their fracture energy."""
@@ -163,11 +163,11 @@ class GrowingCracks(Effect):
         rows = np.flatnonzero(self._growing(found))
         geometry = self._setup.geometry
         if not len(rows):
-            return self._nucleation.event(view.state, self.held)
+            return self._nucleation.event(view.state, self.continuous)
         grown = found.take(rows)
         self._sofar = self._sofar.seen(grown.shut)
         cracks, what = self._extended(self._with_parallel_stress(grown, view.state))
-        return Event(replace(geometry, cracks=cracks), what, held=self.held)
+        return Event(replace(geometry, cracks=cracks), what, continuous=self.continuous)
 
     def _with_parallel_stress(self, found: Intensities, state: State) -> Intensities:
         """Return fronts with kinks corrected for the parallel stress, if the scene asks for it."""

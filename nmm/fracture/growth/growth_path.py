@@ -105,8 +105,8 @@ class GrowthPath:
             or self.jumped[0] * self.equilibria[0, 1] <= 0
         ):
             return 0.0
-        (before, held), (_, factor, stored) = self.jumped, self.equilibria[0].tolist()
-        return float((stored / factor**2 - held / before**2) * before * (before - factor))
+        (before, had), (_, factor, stored) = self.jumped, self.equilibria[0].tolist()
+        return float((stored / factor**2 - had / before**2) * before * (before - factor))
 
     @cached_property
     def _window(self) -> Ints:

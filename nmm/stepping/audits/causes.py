@@ -27,8 +27,8 @@ def cause(run: EndedRun, rise: EnergyRise) -> str:
         )
     if run.stepper.kinematics.finite:
         return "take smaller steps and compare"
-    if grown.held >= most:
-        return _held(run)
+    if grown.supports >= most:
+        return _of_supports(run)
     # Supports and loads act on the reference configuration: an exchange at any length of steps.
     return (
         "take smaller steps and compare; if they change nothing, bodies bend too far: "
@@ -36,7 +36,7 @@ def cause(run: EndedRun, rise: EnergyRise) -> str:
     )
 
 
-def _held(run: EndedRun) -> str:
+def _of_supports(run: EndedRun) -> str:
     """Name the springs on turning bodies, whose points leave their arcs within a step."""
     named = [name for name in HOLDING if name in run.stepper.plan.effects]
     return (

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 MAY_CARRY = 1e-4
 # Stiffness of what holds a body below this share of the largest holds nothing.
 HOLDS = 1e-9
-# Bodies tied to each other in larger groups than this are taken as held.
+# Bodies tied to each other in larger groups than this are taken as supported.
 LARGEST = 200
 # Status of linear programmes in scipy.
 SOLVED, INFEASIBLE, UNBOUNDED = 0, 2, 3
@@ -176,24 +176,26 @@ def _directions(stepper: "Stepper", state: State) -> csr_array:
     size = np.repeat(np.sqrt(manifold.body_area), 3)
     size[np.arange(len(size)) % 3 != 2] = 1.0
     modes = csr_array(manifold.rigid_modes @ diags_array(1 / size))
-    held = csr_array(modes.T @ (plan.matrix(state, csc_array((n, n))) @ modes))
+    stiffness = csr_array(modes.T @ (plan.matrix(state, csc_array((n, n))) @ modes))
     border = plan.border(state, Instant.of(state))
     if border is not None:
         rows = border[0] @ modes
-        held = csr_array(held / (abs(held).max() or 1.0) + rows.T @ rows / abs(rows).max() ** 2)
-    body = np.arange(held.shape[0]) // 3
+        stiffness = csr_array(
+            stiffness / (abs(stiffness).max() or 1.0) + rows.T @ rows / abs(rows).max() ** 2
+        )
+    body = np.arange(stiffness.shape[0]) // 3
     own = csr_array((np.ones(len(body)), (body, np.arange(len(body)))))
-    tied = csr_array((np.ones(held.nnz), held.nonzero()), shape=held.shape)
+    tied = csr_array((np.ones(stiffness.nnz), stiffness.nonzero()), shape=stiffness.shape)
     label = np.asarray(connected_components(tied + own.T @ own, directed=False)[1], np.int64)
-    return csr_array(_loose(held, label) @ modes.T)
+    return csr_array(_loose(stiffness, label) @ modes.T)
 
 
-def _loose(held: csr_array, label: Ints) -> csr_array:
+def _loose(stiffness: csr_array, label: Ints) -> csr_array:
     """Rows (k, m) of the directions that a stiffness (m, m), in groups by label (m,), leaves."""
     order, size = np.argsort(label, kind="stable"), np.bincount(label)
     place = np.empty(len(label), dtype=np.int64)
     place[order] = np.arange(len(label)) - np.repeat(np.cumsum(size) - size, size)
-    entries, stiffest, rows = held.tocoo(), abs(held).max(), [csr_array((0, len(label)))]
+    entries, stiffest, rows = stiffness.tocoo(), abs(stiffness).max(), [csr_array((0, len(label)))]
     for length in np.unique(size[size <= 3 * LARGEST]):  # groups of one size together
         groups = np.flatnonzero(size == length)
         number = np.full(len(size), -1)

@@ -59,7 +59,7 @@ def with_events(recorder: Recorder, at: AcceptedState, events: Asked, stage: str
         now = stepper.plan.event(name, recorder.view(at.state, at.contacts)) if said else event
         if now is None:
             continue
-        change = stepper.reshape(now.geometry, at.state, now.held)
+        change = stepper.reshape(now.geometry, at.state, now.continuous)
         follow(recorder, change, name)
         contact = stepper.plan.contact
         at = AcceptedState(change.state, None if contact is None else contact.standing)

@@ -132,8 +132,8 @@ class _Raising:
             found = anchored(stepper, state, end, breaking, found)
         if found.attempt.converged and is_adrift(stepper):
             stepper.restore(start)
-            held = anchored(stepper, state, end, breaking)
-            found = held if held.attempt.converged else settle(stepper, state, end, breaking)
+            again = anchored(stepper, state, end, breaking)
+            found = again if again.attempt.converged else settle(stepper, state, end, breaking)
         stands = AcceptedState(found.attempt.state, found.contacts)
         events = asked(self.recorder, stands) if found.attempt.converged else ()
         return Trial(factor, fine, last, found, stepper.broken_bonds > bonds, events)

@@ -9,14 +9,14 @@ class EnergySources:
 
     ``made`` is what came; ``given`` is what the integrator gave: waves of one that is not monotone
     come and go. ``contact`` is what springs and bonds of contact gave beyond what friction and
-    breaking bonds ``lost``, and ``held`` what springs of supports and glue store.
+    breaking bonds ``lost``, and ``supports`` what springs of supports and glue store.
     """
 
     made: float = 0.0
     given: float = 0.0
     contact: float = 0.0
     lost: float = 0.0
-    held: float = 0.0
+    supports: float = 0.0
 
     def since(self, before: "EnergySources") -> "EnergySources":
         """Return by how much each has grown."""
@@ -25,7 +25,7 @@ class EnergySources:
             self.given - before.given,
             self.contact - before.contact,
             self.lost - before.lost,
-            self.held - before.held,
+            self.supports - before.supports,
         )
 
 

@@ -255,8 +255,10 @@ class Ledger:
         """
         total, lost = self.in_store, self.dissipated
         largest = max(self.throughput, abs(self.work), abs(total), abs(self.stored_first), lost)
-        held = self.energies.get("support_energy", 0.0)
-        now = EnergySources(self._made, self.given, -self.contact_loss, self.friction_loss, held)
+        supports = self.energies.get("support_energy", 0.0)
+        now = EnergySources(
+            self._made, self.given, -self.contact_loss, self.friction_loss, supports
+        )
         if not audited:
             return with_parts(self, throughput=largest, last=now, lowest=now)
         return with_parts(

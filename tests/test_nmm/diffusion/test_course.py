@@ -9,7 +9,7 @@ from covers.scalar.space import ScalarSpace
 from nmm.assembly.places import on_edges
 from nmm.diffusion.course import FieldAt, FieldCourse
 from nmm.diffusion.edges import steadily
-from nmm.diffusion.holding import held
+from nmm.diffusion.holding import prescribed
 from nmm.diffusion.matrices import products, slopes
 from nmm.diffusion.problem import DiffusionProblem, VolumeSource, field_solver
 from nmm.formulation import CoverTable, Solver
@@ -26,7 +26,7 @@ def course(theta, step=None):
     space, ones = ScalarSpace.of(model.manifold), np.ones(len(model.density))
     place = on_edges(model.manifold, np.ones(len(model.manifold.boundary), dtype=bool), 6)
     alike = np.tile(np.eye(2), (len(ones), 1, 1))
-    rim = held(space, model, alike, place, np.zeros(len(place)), "rim")
+    rim = prescribed(space, model, alike, place, np.zeros(len(place)), "rim")
     solver = field_solver(model.manifold, Solver())
     problem = DiffusionProblem(
         space, slopes(space, alike), products(space, ones), [rim], [], [], solver

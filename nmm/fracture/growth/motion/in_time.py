@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 class GrowthInTime(GrowingCracks):
     """Crack growth in scenes with inertia; its energy is the work against released tractions."""
 
-    held = True
+    continuous = True
 
     def __init__(self, setup: Setup, sofar: GrownSoFar | None = None) -> None:
         super().__init__(setup, sofar)

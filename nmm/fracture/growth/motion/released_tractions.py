@@ -176,16 +176,16 @@ def _tractions(
     return change.former.frames.to_global(old.manifold.element_body[element], local)
 
 
-def _edges_after(held: ReleasedTractions, kin: Relation, model: Model) -> tuple[Ints, Bools]:
+def _edges_after(released: ReleasedTractions, kin: Relation, model: Model) -> tuple[Ints, Bools]:
     """Edges (m,) of the new boundary on which the points lie, and whether there is one (m,)."""
     edges = model.manifold.boundary
-    row, pair = np.nonzero(held.edge[:, None] == kin.parent)
+    row, pair = np.nonzero(released.edge[:, None] == kin.parent)
     child = kin.child[pair]
     way = edges.end[child] - edges.start[child]
-    along = ((held.position[row] - edges.start[child]) * way).sum(axis=1) / (way**2).sum(axis=1)
+    along = ((released.position[row] - edges.start[child]) * way).sum(axis=1) / (way**2).sum(axis=1)
     off = np.abs(along - 0.5)
     order = np.lexsort((child, off, row))
     rows, first = np.unique(row[order], return_index=True)
-    found, known = np.zeros(len(held), dtype=np.int64), np.zeros(len(held), dtype=bool)
+    found, known = np.zeros(len(released), dtype=np.int64), np.zeros(len(released), dtype=bool)
     found[rows], known[rows] = child[order][first], True
     return found, known

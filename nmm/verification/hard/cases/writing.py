@@ -28,8 +28,8 @@ def block(name: str, vertices: npt.ArrayLike, material: str = "rock") -> Documen
     return {"name": name, "material": material, "vertices": points}
 
 
-def held(*names: str) -> list[Document]:
-    """Tables of supports that hold whole blocks."""
+def supported(*names: str) -> list[Document]:
+    """Return tables of supports that hold whole blocks."""
     return [{"name": f"hold {name}", "block": name, "fix": ["x", "y"]} for name in names]
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.verification.hard.cases.base import HardCase, HardClass
 from nmm.verification.hard.cases.parts import over_parts
-from nmm.verification.hard.cases.writing import block, held, in_time, rock
+from nmm.verification.hard.cases.writing import block, in_time, rock, supported
 from nmm.verification.hard.generators.crossings import GAPS, STEPS, steps_of
 from nmm.verification.hard.oracles.motion import flying, moving
 from nmm.verification.text import turned
@@ -78,7 +78,7 @@ class Fans(HardClass):
             scene = {
                 **rock(friction=friction),
                 "blocks": [floor, wall, *leaves],
-                "supports": held("floor", "wall"),
+                "supports": supported("floor", "wall"),
             }
             made = in_time(scene, step, steps_of(step))
             if seed % 2 == 0:  # the book closes against the wall; otherwise it falls open
@@ -111,4 +111,4 @@ def _stack(gap: float, friction: float, random: np.random.Generator) -> dict[str
         low += height
     floor = block("floor", [[-4, -1], [4, -1], [4, 0], [-4, 0]])
     scene = rock(friction=friction)
-    return {**scene, "blocks": [floor, *tables], "supports": held("floor")}
+    return {**scene, "blocks": [floor, *tables], "supports": supported("floor")}

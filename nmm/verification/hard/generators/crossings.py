@@ -10,7 +10,7 @@ from integration.arrays import Floats
 from integration.plane_vectors import counterclockwise
 from nmm.verification.hard.cases.base import Document, HardCase, HardClass
 from nmm.verification.hard.cases.parts import over_parts
-from nmm.verification.hard.cases.writing import block, held, in_time, rock
+from nmm.verification.hard.cases.writing import block, in_time, rock, supported
 from nmm.verification.hard.oracles.motion import flying, moving
 
 COUNTS = (3, 4, 5, 8)
@@ -85,7 +85,7 @@ def fall(blocks: list[Floats], friction: float, step: float) -> Document:
     tables = [block(f"b{number}", points) for number, points in enumerate(blocks)]
     low = min(points[:, 1].min() for points in blocks)
     floor = block("floor", [[-20, low - 2], [24, low - 2], [24, low], [-20, low]])
-    scene = {**rock(friction=friction), "blocks": [*tables, floor], "supports": held("floor")}
+    scene = {**rock(friction=friction), "blocks": [*tables, floor], "supports": supported("floor")}
     return in_time(scene, step, steps_of(step))
 
 

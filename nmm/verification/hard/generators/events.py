@@ -8,7 +8,7 @@ from nmm.verification.base import Check, Checks, holds
 from nmm.verification.hard.cases.base import Document, HardCase, HardClass
 from nmm.verification.hard.cases.parts import enforcements, with_parts
 from nmm.verification.hard.cases.transforms import listed_anew
-from nmm.verification.hard.cases.writing import block, held, rock
+from nmm.verification.hard.cases.writing import block, rock, supported
 from nmm.verification.hard.oracles.motion import ended, ran
 from nmm.verification.text import rectangle
 
@@ -57,7 +57,7 @@ def _row(count: int, apart: float, increment: float) -> Document:
         )
     return scene | {
         "blocks": tables,
-        "supports": held("base"),
+        "supports": supported("base"),
         "loads": loads,
         "loading": {"until": "failure", "maximum_factor": 3.0},
         "formulation": {"loading": {"increment": increment, "tolerance": 1e-4}},

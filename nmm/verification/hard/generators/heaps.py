@@ -6,7 +6,7 @@ import numpy as np
 
 from nmm.verification.hard.cases.base import Document, HardCase, HardClass
 from nmm.verification.hard.cases.parts import over_parts
-from nmm.verification.hard.cases.writing import block, held, in_time, rock
+from nmm.verification.hard.cases.writing import block, in_time, rock, supported
 from nmm.verification.hard.oracles.motion import moving
 from nmm.verification.text import rectangle
 
@@ -47,7 +47,7 @@ def pile(random: np.random.Generator, seed: int) -> Document:
             }
         ],
         "blocks": [block("floor", [[-10, -1], [14, -1], [14, 0], [-10, 0]])],
-        "supports": held("floor"),
+        "supports": supported("floor"),
     }
 
 
@@ -63,7 +63,7 @@ def wall(random: np.random.Generator, seed: int) -> Document:
     edge = float(random.uniform(2.0, 5.0))
     floor = block("floor", rectangle((-4, -1), (edge, 0)))
     deep = block("deep", rectangle((edge, -3), (12, -2)))
-    return {"blocks": [*tables, floor, deep], "supports": held("floor", "deep")}
+    return {"blocks": [*tables, floor, deep], "supports": supported("floor", "deep")}
 
 
 def arch(random: np.random.Generator, seed: int) -> Document:
@@ -78,7 +78,7 @@ def arch(random: np.random.Generator, seed: int) -> Document:
         block(f"v{i}", [inner[i], outer[i], outer[i + 1], inner[i + 1]]) for i in range(count)
     ]
     floor = block("floor", [[-6, -1], [6, -1], [6, 0], [-6, 0]])
-    return {"blocks": [*tables, floor], "supports": held("floor")}
+    return {"blocks": [*tables, floor], "supports": supported("floor")}
 
 
 KINDS = {"pile": pile, "wall": wall, "arch": arch}

@@ -8,7 +8,7 @@ from nmm.verification.base import Check, Checks
 from nmm.verification.hard.cases.base import Document, HardCase, HardClass
 from nmm.verification.hard.cases.parts import enforcements, with_parts
 from nmm.verification.hard.cases.transforms import turned
-from nmm.verification.hard.cases.writing import block, held, rock
+from nmm.verification.hard.cases.writing import block, rock, supported
 from nmm.verification.hard.oracles.motion import ended, ran
 from nmm.verification.text import rectangle
 
@@ -61,7 +61,7 @@ def stacked(kind: str, upper: bool, random: np.random.Generator) -> Document:
             block("low", low, names[0]),
             block("high", high, names[1]),
         ],
-        "supports": held("floor"),
+        "supports": supported("floor"),
         "gravity": {"acceleration": [0.0, -9.81]},
         "monitors": [{"name": "top", "point": high[3].tolist(), "block": "high"}],
     }

@@ -9,7 +9,7 @@ from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats
 from integration.rules import polygon_rule
 from nmm.assembly.places import on_edges
-from nmm.diffusion.holding import held
+from nmm.diffusion.holding import prescribed
 from nmm.diffusion.joints import crack_faces
 from nmm.diffusion.matrices import slopes
 from nmm.diffusion.problem import DiffusionProblem, field_solver
@@ -72,7 +72,7 @@ class HeatAtTip(Case):
         manifold, alike = model.manifold, np.tile(np.eye(2), (len(model.density), 1, 1))
         space = ScalarSpace.of(manifold)
         place = on_edges(manifold, ~crack_faces(model), 10)
-        edges = held(space, model, alike, place, self._exact(place.position), "rim")
+        edges = prescribed(space, model, alike, place, self._exact(place.position), "rim")
         solver = field_solver(manifold, Solver())
         problem = DiffusionProblem(space, slopes(space, alike), None, [edges], [], [], solver)
         rule = polygon_rule(manifold.elements, 12)

@@ -10,7 +10,7 @@ from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats
 from integration.rules import polygon_rule
 from nmm.assembly.places import on_edges
-from nmm.diffusion.holding import held
+from nmm.diffusion.holding import prescribed
 from nmm.diffusion.matrices import slopes
 from nmm.diffusion.problem import DiffusionProblem, field_solver
 from nmm.formulation import Solver
@@ -232,7 +232,7 @@ class HeatRates(Case):
         manifold, space = model.manifold, ScalarSpace.of(model.manifold)
         alike = np.tile(np.eye(2), (len(model.density), 1, 1))
         place = on_edges(manifold, np.ones(len(manifold.boundary), dtype=bool), 10)
-        edges = held(space, model, alike, place, _harmonic(place.position), "rim")
+        edges = prescribed(space, model, alike, place, _harmonic(place.position), "rim")
         solver = field_solver(manifold, Solver())
         problem = DiffusionProblem(space, slopes(space, alike), None, [edges], [], [], solver)
         rule = polygon_rule(manifold.elements, 10)

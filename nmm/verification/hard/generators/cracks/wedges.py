@@ -7,7 +7,7 @@ import numpy as np
 from nmm.verification.base import Check, Checks, holds
 from nmm.verification.hard.cases.base import Document, HardCase, HardClass
 from nmm.verification.hard.cases.parts import enforcements, over_parts, with_parts
-from nmm.verification.hard.cases.writing import block, held, in_time, rock
+from nmm.verification.hard.cases.writing import block, in_time, rock, supported
 from nmm.verification.hard.oracles.motion import body_checks, ended, energy_checks, ran
 
 HALF_ANGLES = (1e-3, 5e-3, 0.0175, 0.05, 0.1, 0.3)
@@ -50,7 +50,7 @@ def crack(half: float, friction: float, random: np.random.Generator) -> Document
     return {
         **rock(friction=friction),
         "blocks": [block("left", left), block("right", right), block("wedge", wedge)],
-        "supports": held("left", "right"),
+        "supports": supported("left", "right"),
         "gravity": {"acceleration": [0.0, -9.81]},
         "monitors": [{"name": "foot", "point": wedge[0], "block": "wedge"}],
         "formulation": {"contact": {"normal_penalty": 100.0}},
