@@ -18,6 +18,10 @@ if TYPE_CHECKING:
 # A rise over the run that is less than this times that of one step is the same rise.
 SAME = 1.5
 
+# Of the turnover: waves of an integrator, which it gives and takes again, are no larger. As much
+# must go before a loss is told.
+WAVES = 0.1
+
 # Steps in an impact with which Shi's integrator keeps nine tenths of its energy.
 RESOLVED = 60
 
@@ -117,6 +121,7 @@ def _rounding(run: EndedRun) -> float:
 def _made(run: EndedRun) -> Findings:
     ledger = run.recorder.ledger
     rises = (("energy_made_in_step", ledger.in_step), ("energy_made_in_run", ledger.in_run))
+    waves = ledger.in_run.energy <= WAVES * ledger.throughput
     for name, rise in rises:
         share = rise.energy / ledger.throughput
         said = rise is ledger.in_run and rise.energy < SAME * ledger.in_step.energy
@@ -128,7 +133,7 @@ def _made(run: EndedRun) -> Findings:
             _came(name, rise, share),
             cause(run, rise),
             # A wave that the integrator gives it takes again: it warns alone.
-            mild=rise.energy - rise.grown.given <= bound * ledger.throughput,
+            mild=waves and rise.energy - rise.grown.given <= bound * ledger.throughput,
             told=said and _told(run),
         )
 

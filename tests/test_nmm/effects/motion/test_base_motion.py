@@ -194,3 +194,12 @@ def test_a_record_of_velocity_or_displacement_moves_by_it(quantity):
 def test_a_jump_drawn_by_two_samples_asks_for_no_steps_that_resolve_it(times, resolved):
     motion = GroundMotion.from_acceleration(np.array(times), np.arange(float(len(times))))
     assert motion.shortest_step == pytest.approx(resolved, rel=1e-4)
+
+
+@pytest.mark.parametrize(("step", "status"), [(0.1, "unbalanced"), (0.05, "converged")])
+def test_a_gift_of_the_integrator_beyond_a_tenth_of_the_turnover_is_no_converged_run(step, status):
+    sine = [round(1e-3 * math.sin(0.2 * math.pi * n), 8) for n in range(21)]
+    text = scene(step=step).replace(f"values = {R1}", f'values = {sine}\nquantity = "displacement"')
+    found = nmm.run(nmm.parse_scene(text.replace('"newmark"', '"generalized_alpha"'))).summary
+    assert (found.audits["energy_made_in_run"] > 0.1) == (status == "unbalanced")
+    assert found.status == status
