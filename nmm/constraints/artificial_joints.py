@@ -5,13 +5,14 @@ traction stays uniform whatever the degree of the functions; there is no state a
 iterate.
 """
 
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
+from nmm.constraints.followed_ties import followed
 from nmm.constraints.imposition import IMPOSITIONS, Imposition, Method
 from nmm.constraints.interface import Interface
 from nmm.constraints.laid_springs import laid_under_stress
@@ -24,6 +25,9 @@ from nmm.effects.base import Setup
 from nmm.errors import FormulationError
 from nmm.geometry.tessellation.block_cover import PieceGlue
 from nmm.geometry.tessellation.cover_types import piece_glue
+
+if TYPE_CHECKING:
+    from nmm.effects.change import Change
 
 
 class ArtificialJoints(TiedInterfaces):
@@ -42,6 +46,16 @@ class ArtificialJoints(TiedInterfaces):
         if setup.scene.initial_stresses:
             ties = laid_under_stress(setup, ties)
         return cls(ties, setup.model.manifold.n_unknowns, turning(setup))
+
+    def follow(self, change: "Change") -> "ArtificialJoints":
+        """Return those of the new model; a new block is glued free of stress where it lies.
+
+        Springs that a change of material makes stiffer or softer exert what they did.
+        """
+        new, parents = type(self).from_setup(change.setup), change.parentage.elements.main
+        keys = np.arange(len(change.old.manifold.elements)), parents
+        new.ties = followed(self.ties, new.ties, change, keys)
+        return new
 
     @staticmethod
     def ties_of(model: Model, glue: PieceGlue, joint_rule: str, start: State) -> list[Imposition]:

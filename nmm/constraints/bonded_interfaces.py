@@ -7,17 +7,14 @@ act at Gauss points of the shared edges, whatever the covers on either side.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from covers.concatenate import concatenate
-from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
+from nmm.constraints.followed_ties import followed
 from nmm.constraints.imposition import Imposition, Method, chosen
-from nmm.constraints.interface import nearest
-from nmm.constraints.laid_springs import free_where, laid_under_stress, stretch_of
+from nmm.constraints.laid_springs import laid_under_stress
 from nmm.constraints.shared_edges import EDGE_ORDER, bonded_stiffness, gauss_interface, shared_edges
 from nmm.constraints.springs import Springs, glue_stiffness, joint_springs
 from nmm.constraints.tied_interfaces import TiedInterfaces
@@ -67,17 +64,13 @@ class BondedInterfaces(TiedInterfaces):
         return made
 
     def follow(self, change: "Change") -> "BondedInterfaces":
-        """Return those of the new model; a new block is tied free of stress where it lies."""
-        new, state, fresh = type(self).from_setup(change.setup), change.state, change.parentage
-        known = [_Anchors.of(change.old, tie) for tie in self.ties]
-        for number, tie in enumerate(new.ties):
-            interface = tie.interface
-            own = _Anchors.of(change.new, tie)
-            anchor, stretch = np.hsplit(own.nearest(known) if known else own.values, 2)
-            arrived = np.any([fresh.new_bodies[side.points.body] for side in interface.sides], 0)
-            anchor = np.where(arrived[:, None], interface.motion(state), anchor)
-            tie = free_where(tie, arrived[:, None] | (stretch == 0))
-            new.ties[number] = replace(tie, interface=replace(interface, anchor=anchor))
+        """Return those of the new model; a new block is tied free of stress where it lies.
+
+        Springs of glue that a change of material makes stiffer or softer exert what they did.
+        """
+        new = type(self).from_setup(change.setup)
+        regions = change.old.manifold.element_region, change.new.manifold.element_region
+        new.ties = followed(self.ties, new.ties, change, regions)
         return new
 
     @property
@@ -94,54 +87,6 @@ class BondedInterfaces(TiedInterfaces):
             "weights that are no polynomials: stress there is off by 12 % and more; shift the net, "
             "or take another cover"
         )
-
-
-@dataclass(frozen=True)
-class _Anchors:
-    """Stress-free jumps at points of a tie, independent of which side is the first.
-
-    Attributes
-    ----------
-    regions
-        (m, 2) regions of the sides, the lower first.
-    position
-        (m, 2) reference place (m).
-    values
-        (m, 4) jumps, of the lower region less the other, and the stretch of springs (m).
-    sign
-        (m, 1) -1 where the first side of the interface is the other.
-    """
-
-    regions: Ints
-    position: Floats
-    values: Floats
-    sign: Floats
-
-    @classmethod
-    def of(cls, model: Model, tie: Imposition) -> Self:
-        """Read those of a tie."""
-        interface = tie.interface
-        of_sides = [model.manifold.element_region[side.elements] for side in interface.sides]
-        regions = np.stack(of_sides, axis=1)
-        sign = np.where(regions[:, :1] > regions[:, 1:], -1.0, 1.0)
-        anchor = np.broadcast_to(interface.anchor, (len(interface), 2))
-        values = sign * np.hstack([anchor, stretch_of(tie)])
-        return cls(np.sort(regions, axis=1), interface.first.position, values, sign)
-
-    def nearest(self, known: Sequence[Self]) -> Floats:
-        """Values (m, 4) of the first sides, at the nearest known points between the same regions.
-
-        Where none is known between them it is zero.
-        """
-        all_known = concatenate(known, {})
-        both = concatenate([all_known, self], {})
-        _, pair = np.unique(both.regions, axis=0, return_inverse=True)
-        far = 2 * float(np.ptp(both.position, axis=0).sum())
-        places = np.column_stack([both.position, far * pair.ravel()])
-        count = len(all_known.position)
-        old, new = np.split(pair.ravel(), [count])
-        found = nearest(places[count:], places[:count], all_known.values)
-        return self.sign * np.where(np.isin(new, old)[:, None], found, 0.0)
 
 
 def _least_cut(model: Model, ties: Sequence[Imposition]) -> float:

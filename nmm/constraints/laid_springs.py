@@ -32,6 +32,14 @@ def stretch_of(tie: Imposition) -> Floats:
     return np.broadcast_to(tie.stretch, (len(tie.interface), 2))
 
 
+def spring_rate(tie: Imposition) -> Floats | None:
+    """Return springs (m, 1) for each length along edges (Pa/m); None where there are none."""
+    springs = tie.springs
+    if springs is None or springs.ndim > 1 or tie.interface.first.normal is None:
+        return None
+    return np.asarray((springs / tie.interface.area)[:, None])
+
+
 def free_where(tie: Imposition, chosen: Bools) -> Imposition:
     """Return a tie whose springs are laid free in chosen components (m, 2)."""
     return tie.laid(np.where(chosen, 0.0, tie.stretch))

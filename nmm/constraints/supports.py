@@ -13,7 +13,7 @@ from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.constraints.imposition import Imposition, Method, support_method
 from nmm.constraints.interface import Interface, nearest
-from nmm.constraints.laid_springs import free_where, laid_under_stress, stretch_of
+from nmm.constraints.laid_springs import free_where, laid_under_stress, spring_rate, stretch_of
 from nmm.constraints.nitsche.volume_lift import sharing
 from nmm.constraints.points_under_stress import laid_at_points
 from nmm.constraints.tied_interfaces import TiedInterfaces
@@ -92,7 +92,7 @@ class Supports(TiedInterfaces):
                 stretch = nearest(*positions, stretch_of(old))
                 had = np.broadcast_to(old.interface.anchor, jump.shape)
                 anchor = nearest(*positions, had)
-                rate, past = _rate(tie), _rate(old)
+                rate, past = spring_rate(tie), spring_rate(old)
                 if rate is not None and past is not None:
                     share = 1 - nearest(*positions, past) / rate
                     anchor = anchor + share * nearest(*positions, jump)
@@ -243,14 +243,6 @@ def _sharing(supports: Sequence[Imposition]) -> list[Imposition]:
     """Return supports whose pressures know of one another."""
     pairs = zip(supports, sharing([s.lift for s in supports]), strict=True)
     return [s if one is None else s.with_lift(one) for s, one in pairs]
-
-
-def _rate(tie: Imposition) -> Floats | None:
-    """Springs (m, 1) for each length along edges (Pa/m); None of what is none of the kind."""
-    springs = tie.springs
-    if springs is None or springs.ndim > 1 or tie.interface.first.normal is None:
-        return None
-    return (springs / tie.interface.area)[:, None]
 
 
 def _interface(setup: Setup, support: "SupportTable", method: Method) -> Interface:
