@@ -37,10 +37,16 @@ class CarriedLoad:
     """The largest load factor, up to that asked for, that admissible contact forces carry.
 
     None where not even the loads that are not scaled are carried.
+
+    Attributes
+    ----------
+    broken
+        Whether bonds that broke before count as broken.
     """
 
     factor: float | None
     asked: float
+    broken: bool = False
 
     @property
     def fails(self) -> bool:
@@ -50,12 +56,11 @@ class CarriedLoad:
     @property
     def sentence(self) -> str:
         """Say what is proven."""
+        forces = "contact forces within friction and strength"
+        by = "static theorem" + self.broken * ", bonds that broke before counted as broken"
         if self.factor is None:
-            return "no contact forces within friction and strength carry the loads (static theorem)"
-        return (
-            "contact forces within friction and strength carry no more than load factor "
-            f"{max(self.factor, 0.0):.6g} (static theorem)"
-        )
+            return f"no {forces} carry the loads ({by})"
+        return f"{forces} carry no more than load factor {max(self.factor, 0.0):.6g} ({by})"
 
 
 @dataclass(frozen=True)
@@ -85,7 +90,8 @@ def carried(
     found = _largest_share(stepper, state, asked, 1.0, weaker)
     if found is None:
         return None
-    return CarriedLoad(None if found.factor is None else asked * found.factor, asked)
+    factor = None if found.factor is None else asked * found.factor
+    return CarriedLoad(factor, asked, stepper.broken_bonds > 0)
 
 
 def load_bound(stepper: "Stepper", state: State) -> LoadBound | None:

@@ -154,6 +154,16 @@ def test_a_bond_carries_its_strength_in_the_static_theorem():
     assert carried(made.stepper, made.start, 1.0).factor == pytest.approx(right, rel=1e-5)
 
 
+def test_a_proof_says_that_bonds_which_broke_before_count_as_broken(monkeypatch):
+    made = prepare(nmm.parse_scene(BLOCKS % 45 + PUSH % (2.0, WEIGHT)), nmm.Formulation())
+    whole = carried(made.stepper, made.start, 1.0)
+    monkeypatch.setattr(type(made.stepper), "broken_bonds", 1)
+    torn = carried(made.stepper, made.start, 1.0)
+    assert torn.factor == whole.factor
+    assert whole.sentence.endswith("(static theorem)")
+    assert torn.sentence.endswith("(static theorem, bonds that broke before counted as broken)")
+
+
 def test_a_block_pushed_over_is_a_failed_structure_with_its_proof():
     text = BLOCKS % 45 + PUSH % (2.0, WEIGHT) + '[loading]\nscaled = ["push"]\n'
     found = run(text, increment=0.1)
