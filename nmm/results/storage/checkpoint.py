@@ -14,7 +14,7 @@ from nmm.results.storage import files
 from nmm.results.storage.values import Arrays
 from nmm.results.storage.writing import write_arrays
 
-CHECKPOINT_FORMAT = 2
+CHECKPOINT_FORMAT = 3
 """Version of what a checkpoint holds: it grows with every change of what a run carries."""
 
 HEADER = "header"
