@@ -118,8 +118,8 @@ class ModelContact:
         """Go on from the contact of an earlier model: joints and contacts continue."""
         from nmm.contact.candidates.succession import succeeding
 
-        springs = None if self.exact else self.laws.springs
-        given = self._candidates, kin, state, self._parts.cracks, springs
+        laws = None if self.exact else (old.laws, self.laws)
+        given = self._candidates, kin, state, self._parts.cracks, laws
         self.record = succeeding(old.record, self.record, *given)
         self._unbonded = self.record.book.broken - old.broken_bonds
 

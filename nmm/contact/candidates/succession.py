@@ -1,6 +1,5 @@
 """Contact on a changed model: joints and contacts continue where the material does."""
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -8,8 +7,7 @@ import numpy as np
 from covers.change.parentage import Parentage
 from nmm.assembly.state import State
 from nmm.contact.candidates.candidates import Candidates
-from nmm.contact.laws.contact_laws import Springs
-from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.points.continued.inheritance import (
     continued,
     continued_joints,
@@ -18,6 +16,7 @@ from nmm.contact.points.continued.inheritance import (
     placed,
     within_one,
 )
+from nmm.contact.points.continued.kept_energy import stretched
 from nmm.contact.points.cracks.bonded_cracks import BondedCracks
 from nmm.contact.solution.record import ContactRecord
 
@@ -32,7 +31,7 @@ def succeeding(
     kin: Parentage,
     state: State,
     cracks: BondedCracks,
-    springs: Callable[[ContactPoints], Springs] | None,
+    laws: tuple[ContactLaws, ContactLaws] | None,
 ) -> ContactRecord:
     """Return the record of the new model that goes on from that of the old one.
 
@@ -52,8 +51,9 @@ def succeeding(
         Of the new model.
     cracks
         Of the new model, those whose faces begin bonded.
-    springs
-        Of contact points, see `ContactLaws.springs`; None where contact has no springs.
+    laws
+        Of the old model and of the new one; None where contact has no springs. Those that become
+        stiffer or softer exert what they did.
     """
     seamless = cracks.points(kin.new, fresh.book.points)
     line = heirs(kin, fresh.book.points, known_joints(record.book)).only_same(seamless)
@@ -69,6 +69,12 @@ def succeeding(
     points = points.take(~points.is_joint)
     if record.known is not None:
         line = heirs(kin, points, record.known)
-        stiffness = None if springs is None else springs(points)[:2]
-        points = continued(points, record.known, line, stiffness)
+        if laws is None:
+            points = continued(points, record.known, line, None)
+        else:
+            was, now = laws
+            normal, shear, own = now.springs(points)
+            softer = np.where(own, 1.0, was.normal_penalty / now.normal_penalty)
+            points = continued(points, record.known, line, (softer * normal, softer * shear))
+            points = stretched(points, softer, slip=True)
     return ContactRecord(book, found, points)

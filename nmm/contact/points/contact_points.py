@@ -40,7 +40,7 @@ class ContactPoints:
         (m,) what the last step left, the warm start of this one.
     reference
         (m,) overlap that no step has made, as a gap (m); positive is what a stress at the start
-        had closed; see `nmm.contact.points.continued.reference_gap`.
+        had closed, or a softer spring would have; see `nmm.contact.points.continued.reference_gap`.
     history
         What interface laws remember: columns (m,) by name (`nmm.interfaces.history`).
     """

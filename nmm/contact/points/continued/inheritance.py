@@ -101,8 +101,8 @@ def continued(
 ) -> ContactPoints:
     """Return found points with what the old ones leave them.
 
-    ``springs`` are the normal and shear stiffness (m,) of the new points (N/m); None where contact
-    has none.
+    ``springs`` are the normal and shear stiffness (m,) of the new points (N/m) as long as materials
+    are what they were; None where contact has none.
     """
     measured = new.distance
     normal, shear = (

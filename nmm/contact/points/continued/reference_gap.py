@@ -10,6 +10,7 @@ neighbours. What is found in place of a joint that has slid apart is pressed as 
 The reference recovers without work: when the contact opens, what is left of the overlap becomes the
 new reference, and it never grows again. Contacts that carry a stress of the ground as they are
 drawn have one above zero until they open: they come apart by what that stress had closed them by.
+So do those whose springs a change of the model has made softer.
 """
 
 from collections.abc import Callable
