@@ -144,7 +144,7 @@ class Partners:
         if some(missing):
             x, y = surface.start[found.vertex[missing]][0] + self._origin
             raise (SceneError if first else SolveError)(no_interface(x, y))
-        meets = (interface >= 0) & ~book.hides(found)
+        meets = (interface >= 0) & ~book.hides(found, len(surface))
         return (found, interface) if every(meets) else (found.take(meets), interface[meets])
 
     def motion(self, before: State, after: State) -> Motion:

@@ -8,7 +8,7 @@ import numpy as np
 from integration.arrays import Bools, Floats, Ints
 from integration.contraction import contract
 from integration.plane_vectors import clockwise
-from nmm.contact.detection.contacts import Contacts
+from nmm.contact.detection.contacts import FACE, Contacts
 from nmm.contact.detection.surface import Surface, unordered_key
 from nmm.contact.detection.tolerances import JOINT_LEFT, WHOLLY_HELD
 from nmm.contact.points.between_faces import JointFaces
@@ -49,9 +49,20 @@ class JointBook:
         """Return the book with some of its points (m,)."""
         return replace(self, points=self.points.take(chosen), joint=self.joint[chosen])
 
-    def hides(self, found: Contacts) -> Bools:
-        """Which found contacts a followed joint carries already."""
-        return np.isin(found.key, self.pairs)
+    def hides(self, found: Contacts, n: int) -> Bools:
+        """Which contacts found among ``n`` edges followed joints carry already.
+
+        They are those at the ends of joints, and those of corners that bonds hold on both sides:
+        what such a corner may enter only beside its neighbours, as a kink, it does not.
+        """
+        return np.isin(found.key, self.pairs) | (
+            (found.kind != FACE) & self._bonded_corners(n)[found.vertex]
+        )
+
+    def _bonded_corners(self, n: int) -> Bools:
+        """Which vertices (n,) are ends of two joints that hold at all of their points."""
+        whole = ~np.isin(self.pair_joint, self.joint[~self.points.bonded])
+        return np.bincount(self.pairs[whole] // n, minlength=n) > 1
 
     def edges(self, n: int) -> Ints:
         """Pairs of edges that followed joints carry, ``a * n + b`` with ``a < b``, sorted."""
