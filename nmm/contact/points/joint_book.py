@@ -55,9 +55,10 @@ class JointBook:
         They are those at the ends of joints, and those of corners that bonds hold on both sides:
         what such a corner may enter only beside its neighbours, as a kink, it does not.
         """
-        return np.isin(found.key, self.pairs) | (
-            (found.kind != FACE) & self._bonded_corners(n)[found.vertex]
-        )
+        corner = found.kind != FACE
+        hidden = np.isin(found.key, self.pairs)
+        hidden[corner] |= self._bonded_corners(n)[found.vertex[corner]]
+        return hidden
 
     def _bonded_corners(self, n: int) -> Bools:
         """Which vertices (n,) are ends of two joints that hold at all of their points."""
