@@ -134,23 +134,14 @@ def _closed(opening: Floats, aside: Floats, flush: Floats) -> Floats:
     return np.divide(left, opening, out=np.full_like(left, np.inf), where=opening > 0.0)
 
 
-def _may_enter(
+def covered_kinks(
     surface: Surface, covers: Covers, v: Ints, e: Ints, end: Bools, rules: Rules
 ) -> Bools:
-    """Vertices (m,) that may enter edges at an ``end`` as third bodies that cover it give way.
-
-    They may in a kink, and at a corner if some way along a flush neighbour leads into it.
-    """
+    """Edges (m,) with a kink at an ``end``, beside which a body other than the vertices' covers."""
     corner = np.where(end, surface.next[e], e)
     x = np.where(end, covers.before[corner], covers.own[e])
-    found = ~convex_vertices(surface, rules)[corner]
-    for y in (covers.own[v], covers.before[v]):
-        other = (y >= 0) & (surface.body[y] != surface.body[x])
-        other &= surface.body[y] != surface.body[e]
-        onward = dot(surface.direction[corner], surface.normal[y])
-        back = -dot(surface.direction[surface.previous[corner]], surface.normal[y])
-        found |= other & (np.maximum(onward, back) > rules.sine)
-    return np.asarray(found & (x >= 0) & (surface.body[x] != surface.body[v]))
+    kink = ~convex_vertices(surface, rules)[corner]
+    return np.asarray(kink & (x >= 0) & (surface.body[x] != surface.body[v]))
 
 
 def shielded(
@@ -191,4 +182,6 @@ def shielded(
     hidden |= total >= length - rules.flush * surface.thickness[e]
     beside = np.minimum(foot, length - foot)
     at_end = np.maximum(beside, np.abs(gap)) <= flush_distance(surface, v, e, rules)
-    return np.asarray(hidden & ~(at_end & _may_enter(surface, covers, v, e, foot > beside, rules)))
+    return np.asarray(
+        hidden & ~(at_end & covered_kinks(surface, covers, v, e, foot > beside, rules))
+    )

@@ -22,7 +22,15 @@ from nmm.contact.detection.measures import (
 from nmm.contact.detection.narrow_phase import contacts_of
 from nmm.contact.detection.surface import Surface, pair_key
 from nmm.contact.detection.tolerances import Rules
-from nmm.testing.detection.flush import Covers, convex_vertices, find_covers, leaves, rays, shielded
+from nmm.testing.detection.flush import (
+    Covers,
+    convex_vertices,
+    covered_kinks,
+    find_covers,
+    leaves,
+    rays,
+    shielded,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,12 +84,14 @@ def select(
     along, gap = measure(surface, v, e)
     covers = find_covers(surface, v, e, along, gap, rules)
     length = surface.length[e]
-    # A contact stays a little beyond the end of its edge, lest two vertices take turns; in a kink
-    # both edges bound the way.
+    # A contact stays a little beyond the end of its edge, lest two vertices take turns; in a
+    # covered kink both edges bound the way.
     flush, sharp = flush_distance(surface, v, e, rules), rules.end * length + rules.rounding
     convex = convex_vertices(surface, rules)
-    interior = along >= -np.where(last | ~convex[e], flush, sharp)
-    interior &= along <= length + np.where(last | ~convex[surface.next[e]], flush, sharp)
+    ends = (np.full(len(e), end) for end in (False, True))
+    kinks = [last | covered_kinks(surface, covers, v, e, end, rules) for end in ends]
+    interior = along >= -np.where(kinks[0], flush, sharp)
+    interior &= along <= length + np.where(kinks[1], flush, sharp)
     # In one body the far face of a thin neck looks like a face that is overlapped.
     trusted = last | (surface.body[v] != surface.body[e])
     depth = np.where(trusted, rules.depth, rules.flush) * thinner(surface, v, e)

@@ -5,7 +5,7 @@ import math
 from integration.arrays import Bools, Floats
 from nmm.compiled import compiled
 from nmm.contact.detection.narrow.edges import thinner
-from nmm.contact.detection.narrow.shields import leaves, rays, shielded
+from nmm.contact.detection.narrow.shields import covered_kink, leaves, rays, shielded
 from nmm.contact.detection.narrow.tables import EdgesOfVertex, Shape, Small
 from nmm.contact.detection.tolerances import Rules
 
@@ -45,12 +45,12 @@ def _inside(shape: Shape, one: int, other: int, rules: Rules) -> bool:
 def _beside(shape: Shape, v: int, e: int, s: float, known: bool, rules: Rules) -> bool:
     """Whether the foot of a vertex is on an edge, or a little beyond the end.
 
-    A contact stays there, lest two vertices take turns; in a kink both edges bound the way.
+    A contact stays there, lest two vertices take turns; in a covered kink both edges bound the way.
     """
     sharp = rules.end * shape[e].length + rules.rounding
     flush = rules.flush * thinner(shape, v, e) + rules.rounding
-    before = flush if known or not shape[e].convex else sharp
-    beyond = flush if known or not shape[shape[e].next].convex else sharp
+    before = flush if known or covered_kink(shape, v, e, 0) else sharp
+    beyond = flush if known or covered_kink(shape, v, e, 1) else sharp
     return bool(s >= -before and s <= shape[e].length + beyond)
 
 

@@ -104,25 +104,13 @@ def _covering(shape: Shape, v: int, e: int, end: int) -> int:
 
 
 @compiled
-def _may_enter(shape: Shape, v: int, e: int, end: int, rules: Rules) -> bool:
-    """Whether a vertex at an end of an edge may enter it as what covers the edge there gives way.
+def covered_kink(shape: Shape, v: int, e: int, end: int) -> bool:
+    """Whether an edge ends in a kink, beside which a third body covers it.
 
-    It may in a kink, where both edges of the body bound its way; and at a corner if some way along
-    another body, which lies flush on an edge of its own, leads into the corner.
+    Both edges that meet there bound the way of a vertex as what covers them gives way.
     """
-    x, corner = _covering(shape, v, e, end), e if end == 0 else shape[e].next
-    if x < 0 or not shape[corner].convex:
-        return x >= 0
-    p = shape[corner].previous
-    for side in range(2):
-        y = shape[v].own if side == 0 else shape[v].before
-        if y < 0 or shape[y].body == shape[x].body or shape[y].body == shape[e].body:
-            continue
-        nx, ny = shape[y].ty, -shape[y].tx
-        onward = shape[corner].tx * nx + shape[corner].ty * ny
-        if max(onward, -(shape[p].tx * nx + shape[p].ty * ny)) > rules.sine:
-            return True
-    return False
+    corner = e if end == 0 else shape[e].next
+    return bool(not shape[corner].convex and _covering(shape, v, e, end) >= 0)
 
 
 @compiled
@@ -133,7 +121,7 @@ def shielded(shape: Shape, v: int, e: int, s: float, gap: float, rules: Rules) -
     foot = min(max(s, 0.0), length)
     flush = rules.flush * thinner(shape, v, e) + rules.rounding
     beside = min(foot, length - foot)
-    if max(beside, abs(gap)) <= flush and _may_enter(shape, v, e, int(foot > beside), rules):
+    if max(beside, abs(gap)) <= flush and covered_kink(shape, v, e, int(foot > beside)):
         return False
     total = 0.0
     for end in range(2):
