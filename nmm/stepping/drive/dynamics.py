@@ -1,6 +1,7 @@
 """Steps in time: a step that does not converge is cut; one that cannot be cut ends the run."""
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 
 from nmm.assembly.state import State
 from nmm.effects.base import Instant
@@ -8,12 +9,14 @@ from nmm.errors import NmmError
 from nmm.frozen import with_parts
 from nmm.progress import Progress
 from nmm.stepping.drive.changes import AcceptedState, asked, with_events
+from nmm.stepping.drive.equilibrium.settling import SettledStep, may_be_loose, too_far
 from nmm.stepping.drive.in_time import ROUNDED_TIME, InTime, Schedule
 from nmm.stepping.drive.jumps import jumped
 from nmm.stepping.drive.stable_step import longest_step, singular_mass
 from nmm.stepping.drive.until_verdict import broken_off
 from nmm.stepping.drive.verdict import CONVERGED, FAILED, SPENT, RunVerdict
 from nmm.stepping.reports.recorder import Recorder
+from nmm.stepping.step.anchors import left_alone
 from nmm.stepping.step.budget import BudgetSpentError
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
@@ -156,10 +159,22 @@ def _step_or_cut(
     for length in _halves(step, schedule.step / 2**DEEPEST_HALVING):
         end = Instant(state.time + length, schedule.load_factor)
         attempt = stepper.attempt(state, end, length)
+        if not attempt.converged and _held_by_nothing(stepper, attempt):
+            stepper.anchored = True
+            attempt = stepper.attempt(state, end, length)
+            # What is loaded goes far; what is not stays, and loads its anchors with rounding.
+            stepper.anchored = attempt.converged and attempt.motion <= too_far(stepper)
+            attempt = replace(attempt, converged=stepper.anchored)
         if attempt.converged:
             break
         why = why or attempt.sentence
     return attempt, why
+
+
+def _held_by_nothing(stepper: Stepper, attempt: Attempt) -> bool:
+    """Whether rounding moves a block that nothing touches, where there is no inertia."""
+    still = stepper.plan.inertia is None
+    return still and may_be_loose(stepper, SettledStep(attempt, None)) and left_alone(stepper)
 
 
 def _halves(step: float, smallest: float) -> Iterator[float]:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import csc_array, diags_array
 
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 
@@ -111,11 +111,24 @@ def _turned_back(stepper: "Stepper", at: State) -> Floats:
     stress = model.stress(at) if added is None else model.stress(at) + added
     moment = model.thickness * manifold.elements.areas * (stress[:, 0] + stress[:, 1])
     back = np.maximum(np.bincount(manifold.element_body, moment, manifold.n_bodies), 0.0)
-    if plan.contact is not None:
-        points = plan.contact.standing
-        edges = np.concatenate([points.edge_a, points.edge_b])[np.tile(points.normal_force != 0, 2)]
-        back[manifold.boundary.body[edges]] = 0.0
+    back[_pressed(stepper)] = 0.0
     return back if all(effect.symmetric for effect in plan.effects.values()) else 0.0 * back
+
+
+def _pressed(stepper: "Stepper") -> Ints:
+    """Return bodies on which contacts of the last accepted state press, with repetitions."""
+    contact = stepper.plan.contact
+    if contact is None:
+        return np.zeros(0, dtype=np.int64)
+    points = contact.standing
+    edges = np.concatenate([points.edge_a, points.edge_b])[np.tile(points.normal_force != 0, 2)]
+    return np.asarray(stepper.model.manifold.boundary.body[edges])
+
+
+def left_alone(stepper: "Stepper") -> bool:
+    """Whether some body is held by nothing, and no such body is pressed by another."""
+    alone = list(unopposed(stepper))
+    return bool(alone) and not np.isin(alone, _pressed(stepper)).any()
 
 
 def _against_rigid_motions(stepper: "Stepper") -> csc_array | None:
