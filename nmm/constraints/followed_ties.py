@@ -11,7 +11,7 @@ from integration.arrays import Floats, Ints
 from nmm.assembly.state import State
 from nmm.constraints.imposition import Imposition
 from nmm.constraints.interface import nearest
-from nmm.constraints.laid_springs import free_where, spring_rate, stretch_of
+from nmm.constraints.laid_springs import exerting_the_same, free_where, spring_rate, stretch_of
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
@@ -38,9 +38,8 @@ def followed(
         interface, own = tie.interface, _Held.of(keys[1], tie, state)
         before = own.nearest(known) if known else own
         arrived = np.any([fresh[side.points.body] for side in interface.sides], 0)[:, None]
-        sprung = (before.rate > 0) & (own.rate > 0)
-        share = np.where(sprung, 1 - before.rate / np.where(sprung, own.rate, 1.0), 0.0)
-        anchor = np.where(arrived, interface.motion(state), before.anchor + share * before.jump)
+        stays = exerting_the_same(before.anchor, before.jump, before.rate, own.rate)
+        anchor = np.where(arrived, interface.motion(state), stays)
         laid = free_where(tie, arrived | (before.stretch == 0))
         found.append(replace(laid, interface=replace(interface, anchor=anchor)))
     return found
@@ -76,7 +75,7 @@ class _Held:
     @classmethod
     def of(cls, number: Ints, tie: Imposition, state: State) -> Self:
         """Read how a tie holds in a state; ``number`` (E,) is that of the elements."""
-        interface, rate = tie.interface, spring_rate(tie)
+        interface = tie.interface
         keys = np.stack([number[side.elements] for side in interface.sides], axis=1)
         sign = np.where(keys[:, :1] > keys[:, 1:], -1.0, 1.0)
         anchor = np.broadcast_to(interface.anchor, (len(interface), 2))
@@ -86,7 +85,7 @@ class _Held:
             sign * anchor,
             sign * stretch_of(tie),
             sign * (interface.motion(state) - anchor),
-            np.zeros((len(interface), 1)) if rate is None else rate,
+            spring_rate(tie),
             sign,
         )
 

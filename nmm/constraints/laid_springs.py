@@ -32,12 +32,22 @@ def stretch_of(tie: Imposition) -> Floats:
     return np.broadcast_to(tie.stretch, (len(tie.interface), 2))
 
 
-def spring_rate(tie: Imposition) -> Floats | None:
-    """Return springs (m, 1) for each length along edges (Pa/m); None where there are none."""
+def spring_rate(tie: Imposition) -> Floats:
+    """Return springs (m, 1) for each length along edges (Pa/m); zero where there are none."""
     springs = tie.springs
     if springs is None or springs.ndim > 1 or tie.interface.first.normal is None:
-        return None
+        return np.zeros((len(tie.interface), 1))
     return np.asarray((springs / tie.interface.area)[:, None])
+
+
+def exerting_the_same(anchor: Floats, jump: Floats, before: Floats, now: Floats) -> Floats:
+    """Return the stress-free jump (m, 2) of springs that are stiffer or softer than before.
+
+    They exert at a ``jump`` beyond the ``anchor`` (m, 2) what they did; rates are of `spring_rate`.
+    """
+    sprung = (before > 0) & (now > 0)
+    share = np.where(sprung, 1 - before / np.where(sprung, now, 1.0), 0.0)
+    return np.asarray(anchor + share * jump)
 
 
 def free_where(tie: Imposition, chosen: Bools) -> Imposition:

@@ -13,7 +13,13 @@ from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.constraints.imposition import Imposition, Method, support_method
 from nmm.constraints.interface import Interface, nearest
-from nmm.constraints.laid_springs import free_where, laid_under_stress, spring_rate, stretch_of
+from nmm.constraints.laid_springs import (
+    exerting_the_same,
+    free_where,
+    laid_under_stress,
+    spring_rate,
+    stretch_of,
+)
 from nmm.constraints.nitsche.volume_lift import sharing
 from nmm.constraints.points_under_stress import laid_at_points
 from nmm.constraints.tied_interfaces import TiedInterfaces
@@ -91,11 +97,10 @@ class Supports(TiedInterfaces):
                 positions = interface.first.position, old.interface.first.position
                 stretch = nearest(*positions, stretch_of(old))
                 had = np.broadcast_to(old.interface.anchor, jump.shape)
-                anchor = nearest(*positions, had)
-                rate, past = spring_rate(tie), spring_rate(old)
-                if rate is not None and past is not None:
-                    share = 1 - nearest(*positions, past) / rate
-                    anchor = anchor + share * nearest(*positions, jump)
+                at, beyond, past = (
+                    nearest(*positions, one) for one in (had, jump, spring_rate(old))
+                )
+                anchor = exerting_the_same(at, beyond, past, spring_rate(tie))
             tie = free_where(tie, stretch == 0)
             new.ties[number] = replace(tie, interface=replace(interface, anchor=anchor))
         return new
