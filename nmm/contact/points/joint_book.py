@@ -55,8 +55,9 @@ class JointBook:
         They are those at the ends of joints, and those of corners that bonds hold on both sides:
         what such a corner may enter only beside its neighbours, as a kink, it does not.
         """
-        corner = found.kind != FACE
-        hidden = np.isin(found.key, self.pairs)
+        if not len(self.pairs):
+            return np.zeros(len(found), dtype=bool)
+        corner, hidden = found.kind != FACE, np.isin(found.key, self.pairs)
         hidden[corner] |= self._bonded_corners(n)[found.vertex[corner]]
         return hidden
 
