@@ -1,7 +1,6 @@
 """Steps in time: a step that does not converge is cut; one that cannot be cut ends the run."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 
 from nmm.assembly.state import State
 from nmm.effects.base import Instant
@@ -160,15 +159,22 @@ def _step_or_cut(
         end = Instant(state.time + length, schedule.load_factor)
         attempt = stepper.attempt(state, end, length)
         if not attempt.converged and _held_by_nothing(stepper, attempt):
-            stepper.anchored = True
-            attempt = stepper.attempt(state, end, length)
-            # What is loaded goes far; what is not stays, and loads its anchors with rounding.
-            stepper.anchored = attempt.converged and attempt.motion <= too_far(stepper)
-            attempt = replace(attempt, converged=stepper.anchored)
+            attempt = _anchored(stepper, state, end, length) or attempt
         if attempt.converged:
             break
         why = why or attempt.sentence
     return attempt, why
+
+
+def _anchored(stepper: Stepper, state: State, end: Instant, length: float) -> Attempt | None:
+    """Solve a step with anchors, which stay; None where that does not help.
+
+    What is loaded goes far; what is not stays, and loads its anchors with rounding.
+    """
+    stepper.anchored = True
+    attempt = stepper.attempt(state, end, length)
+    stepper.anchored = attempt.converged and attempt.motion <= too_far(stepper)
+    return attempt if stepper.anchored else None
 
 
 def _held_by_nothing(stepper: Stepper, attempt: Attempt) -> bool:
