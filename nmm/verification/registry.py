@@ -85,6 +85,7 @@ CASES = Registry[type[Case]](
         "BO4 dowel": f"{_HOME}.members.anchored:DoweledJoint",
         "BO5 plane": f"{_HOME}.members.anchored:BoltedBlock",
         "BO5 roof": f"{_HOME}.members.anchored:HungBlock",
+        "BO6": f"{_HOME}.members.pulled_bars:LongBolt",
         "C1": f"{_HOME}.members.beams:PlainBeam",
         "C1b": f"{_HOME}.members.beams:ReinforcedBeam",
         "C2": f"{_HOME}.contact.pull_out:AnchorPullOut",

@@ -32,10 +32,12 @@ displacement = [{way}, 0]
 [loading]
 [formulation.loading]
 increment = {increment}
+[formulation.bars]
+pieces = {pieces}
 """
 
 
-def pulled(bond: str, way: float, increment: float, length: float = 0.3) -> str:
+def pulled(bond: str, way: float, increment: float, length: float = 0.3, pieces: int = 40) -> str:
     """Scene of a bar of 16 mm that a jack pulls out of a host which hardly gives way."""
     end = length + 0.1
     return text.scene(
@@ -44,7 +46,9 @@ def pulled(bond: str, way: float, increment: float, length: float = 0.3) -> str:
             text.material("rock", modulus=1e15, poisson=0.0, density=None),
             text.block("host", "rock", text.rectangle((0, -0.1), (length, 0.1))),
             text.block("jack", "rock", text.rectangle((length, -0.1), (end, 0.1))),
-            PULL.format(length=length, end=end, bond=bond, way=way, increment=increment),
+            PULL.format(
+                length=length, end=end, bond=bond, way=way, increment=increment, pieces=pieces
+            ),
         ],
     )
 
@@ -108,3 +112,50 @@ class PullOut(SceneCase):
                 "snap-back" in run.summary.sentence, "no stable slips beyond it"
             ),
         }
+
+
+class LongBolt(SceneCase):
+    """A long bolt in resin sheds its force within a few hole diameters of its collar."""
+
+    name = "BO6"
+    title = "Force and shear stress along a grouted bolt"
+    source = (
+        "exp(-alpha x) from the collar, alpha^2 = 2 G / (E a^2 ln(R / a)): resin of shear modulus "
+        "G between the bolt's radius a and the hole's R (Farmer 1975)"
+    )
+    formulations = ("dda", "degree 2", "finite elements", "manifold", "quads", "splines")
+    radius, hole, resin, steel, length, force = 8e-3, 14e-3, 0.9e9, 200e9, 1.2, 40e3
+
+    @property
+    def decay(self) -> float:
+        """Farmer's alpha (1/m); times the length it is 19: infinitely long to 1e-8."""
+        thick = np.log(self.hole / self.radius)
+        return float(np.sqrt(2 * self.resin / (self.steel * self.radius**2 * thick)))
+
+    def scene(self) -> str:
+        """Return the bolt, pulled by the slip that the force has at its collar."""
+        stiffness = self.resin / (self.radius * np.log(self.hole / self.radius))
+        area = np.pi * self.radius**2
+        slip = self.force / (self.steel * area * self.decay)
+        return pulled(f"stiffness = {float(stiffness)!r}", float(slip), 1.0, self.length, 240)
+
+    def measure(self, run: "Run") -> Checks:
+        segments = run.stepper.plan.effects["bars"].segments(run.state)
+        # The last piece is a half, up to the plate of the jack.
+        force, place = segments.force[:-1], segments.place[:-1, :, 0].mean(axis=1)
+        shear = np.diff(force) / (2 * np.pi * self.radius * np.diff(place))
+        at_collar = self.decay * self.force / (2 * np.pi * self.radius)
+        reason = "order 2 in pieces of 0.08 over alpha"
+        checks: Checks = {}
+        for way in (0.02, 0.1, 0.2, 0.4):
+            left = float(np.exp(-self.decay * way))
+            at = self.length - way
+            along = float(np.interp(at, place, force))
+            across = float(np.interp(at, (place[1:] + place[:-1]) / 2, shear))
+            checks[f"force {way:g} m from the collar (N)"] = Check(
+                along, self.force * left, 1e-3, reason, scale=self.force
+            )
+            checks[f"shear stress there, {way:g} m (Pa)"] = Check(
+                across, at_collar * left, 2e-3, reason, scale=at_collar
+            )
+        return checks

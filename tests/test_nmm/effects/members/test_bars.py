@@ -416,26 +416,3 @@ def test_of_slips_alike_at_both_ends_the_one_at_the_first_is_told_wherever_the_b
     told = nmm.run(nmm.parse_scene(text)).history["bars:bar:slip"][-1]
     # Pieces of h = 7 mm: (a h)^2 = 7e-4.
     assert told == pytest.approx(wanted, rel=1e-3)
-
-
-def test_a_long_grouted_bolt_sheds_its_force_as_farmer_says():
-    """Farmer (1975), *Int. J. Rock Mech. Min. Sci.* 12, 347: resin in a rigid hole.
-
-    Grout of shear modulus G between radii a and R gives way by ``tau a ln(R / a) / G``. Force and
-    shear then fall as ``exp(-alpha x)`` from the collar, ``alpha^2 = 2 G / (E a^2 ln(R / a))``.
-    """
-    shear_modulus, radius, hole, length = 0.9e9, 8e-3, 14e-3, 1.2
-    bond = shear_modulus / (radius * np.log(hole / radius))
-    alpha = np.sqrt(2 * shear_modulus / (200e9 * radius**2 * np.log(hole / radius)))
-    slip = 40e3 / (EA * alpha)  # of a force of 40 kN at the collar
-    found = pull(f'law = "linear"\nstiffness = {bond}', slip, length, pieces=240, modulus="1e8 GPa")
-    assert alpha * length > 15  # infinitely long to 1e-7
-    segments = found.stepper.plan.effects["bars"].segments(found.state)
-    # The last piece is a half, up to the plate of the jack.
-    force, from_collar = segments.force[:-1], length - segments.place[:-1, :, 0].mean(axis=1)
-    # Order 2 in alpha times a piece, 0.08.
-    np.testing.assert_allclose(force, 40e3 * np.exp(-alpha * from_collar), atol=1e-3 * 40e3)
-    between = (from_collar[1:] + from_collar[:-1]) / 2
-    shear = np.diff(force) / (AROUND * -np.diff(from_collar))
-    at_collar = alpha * 40e3 / AROUND  # alpha a / 2 times the axial stress there
-    np.testing.assert_allclose(shear, at_collar * np.exp(-alpha * between), atol=2e-3 * at_collar)
