@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from nmm.cli.terminal import console
+from nmm.errors import NmmError
 
 if TYPE_CHECKING:
     from nmm.verification.hard.running.running import Finding
@@ -63,6 +64,11 @@ def verify_hard(
 
 
 def _sum_up(found: "list[Finding]") -> None:
+    if not found:
+        raise NmmError(
+            "--hard: nothing was run: expected cases that have all of --part and are not slow: "
+            "leave a part out, or add --slow"
+        )
     missed = [finding for finding in found if not finding.passed]
     seconds = sum(finding.seconds for finding in found)
     console().print(

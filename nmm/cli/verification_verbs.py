@@ -7,6 +7,7 @@ import typer
 
 from nmm.cli.scene_verbs import AllowCode, allowed
 from nmm.cli.terminal import console, faults_told, progress_bar, tell_files
+from nmm.errors import NmmError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -65,6 +66,12 @@ def verify(
             _list(names or [])
             return
         chosen = list(_chosen(names or [], slow))
+        left_out = _left_out(names or [], slow)
+        if not chosen:
+            raise NmmError(
+                f"{' '.join(names or [])}: nothing was run: all {left_out} runs take more than a "
+                "few seconds: expected --slow, or a benchmark named in full (nmm verify --list)"
+            )
         outcomes = []
         with progress_bar(quiet) as progress:
             for number, (case, formulation) in enumerate(chosen):
@@ -72,7 +79,7 @@ def verify(
                 progress(number / len(chosen), f"{number + 1}/{len(chosen)} {label}")
                 outcomes.append(_judged(case, formulation, quiet))
         missed = [one for one in outcomes if not one.passed]
-        _sum_up(outcomes, missed)
+        _sum_up(outcomes, missed, left_out)
         if out is not None:
             from nmm.verification.manual import write_manual
 
@@ -123,6 +130,15 @@ def _chosen(names: list[str], slow: bool) -> "Iterator[tuple[Case, str]]":
             yield case, case.formulations[0]
         else:
             yield from runs([name], slow)
+
+
+def _left_out(names: list[str], slow: bool) -> int:
+    """Return how many runs are left out for want of --slow."""
+    from nmm.verification import runs
+    from nmm.verification.published import is_published
+
+    wanted = [name for name in names if not is_published(Path(name))] if names else None
+    return len(list(runs(wanted, slow=True))) - len(list(runs(wanted, slow)))
 
 
 def _list(names: list[str]) -> None:
@@ -184,7 +200,7 @@ def _columns(checks: "Checks") -> list[tuple[str, str, str]]:
     return [(name, one.shown, f"reference {one.wanted}") for name, one in checks.items()]
 
 
-def _sum_up(outcomes: "list[Outcome]", missed: "list[Outcome]") -> None:
+def _sum_up(outcomes: "list[Outcome]", missed: "list[Outcome]", left_out: int) -> None:
     """Print how many missed; of many runs, say again which, and where each is written."""
     out = console()
     if missed and len(outcomes) > 1:
@@ -200,8 +216,9 @@ def _sum_up(outcomes: "list[Outcome]", missed: "list[Outcome]") -> None:
             out.print(f"    in {kind.__module__}:{kind.__qualname__}", highlight=False)
     seconds = sum(one.seconds for one in outcomes)
     told = f"{len(missed)} missed" if missed else "all within tolerance"
+    slow = f"; {left_out} more with --slow" if left_out else ""
     out.print(
-        f"{len(outcomes)} run{'s' * (len(outcomes) != 1)}, {told}, {seconds:.3g} s",
+        f"{len(outcomes)} run{'s' * (len(outcomes) != 1)}, {told}, {seconds:.3g} s{slow}",
         style="red" if missed else "green",
         highlight=False,
     )

@@ -170,6 +170,27 @@ def test_slow_variants_run_when_their_benchmark_is_named_in_full(monkeypatch):
     assert len(list(runs(["B99"], slow=True))) == 1
 
 
+def test_a_group_that_is_slow_as_a_whole_is_no_success():
+    result = call("verify", "CO")
+    assert result.exit_code == 1
+    assert "CO: nothing was run: all 15 runs take more than" in result.stderr
+    assert "expected --slow, or a benchmark named in full" in result.stderr
+    assert "within tolerance" not in result.output
+
+
+def test_what_is_left_out_for_its_seconds_is_counted():
+    result = call("verify", "a0c")  # 12 runs, 3 of them slow, by `nmm verify --list A0c`
+    assert result.exit_code == 0
+    assert "9 runs, all within tolerance" in result.stdout
+    assert result.stdout.rstrip().endswith("; 3 more with --slow")
+
+
+def test_hard_cases_of_parts_that_none_has_are_no_success():
+    result = call("verify", "--hard", "seams", "--part", "no_such_part")
+    assert result.exit_code == 1
+    assert "--hard: nothing was run: expected cases that have all of --part" in result.stderr
+
+
 def test_the_list_of_benchmarks_runs_none():
     result = call("verify", "--list", "B1")
     assert result.exit_code == 0
