@@ -128,8 +128,12 @@ class Candidates:
     def near(
         self, record: ContactRecord, state: State, reach: float
     ) -> tuple[tuple[csr_array, csr_array], Limits]:
-        """Return rows and strength of contacts that bonds hold or that are open by ``reach``."""
-        _, contacts = self.sought(record, state, reach)
+        """Return rows and strength of contacts that bonds hold or that are open by ``reach``.
+
+        In kinks of two bodies they are more than a step finds: whatever may carry is among them.
+        """
+        kinks = self.partners.in_kinks(state, reach, record.book)
+        _, contacts = self.sought(record, state, reach, crossed=kinks)
         contacts = contacts.take(contacts.bonded | (contacts.gap <= reach))
         through = self._geometry.rows(contacts, state)
         return (through.normal, through.tangent), strength(self._laws, contacts)

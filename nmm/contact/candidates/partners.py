@@ -10,6 +10,7 @@ from nmm.assembly.state import State
 from nmm.contact.candidates.pairs import GLUED, MISSING, Pairs, no_interface
 from nmm.contact.detection.contacts import Contacts
 from nmm.contact.detection.crossing import Motion, crossings_in, motion_of
+from nmm.contact.detection.kinks import in_kinks
 from nmm.contact.detection.narrow_phase import find_contacts, with_pairs
 from nmm.contact.detection.neighbour_list import NeighbourList
 from nmm.contact.detection.surface import Surface
@@ -112,12 +113,7 @@ class Partners:
             they are contacts too.
         """
         surface, motion = self.surface(state), self._flight(state, step)
-        if self._neighbours is None or self._neighbours.skin < 2 * reach:
-            # Wider where that brings hardly any pairs: they are sought to a depth in any case.
-            thinnest = float(surface.thickness.min()) if len(surface) else 0.0
-            skin = max(4 * reach, SKIN * thinnest)
-            self._neighbours = NeighbourList(skin, within_bodies=self._within_bodies)
-        vertex, edge = self._neighbours.update(surface)
+        vertex, edge = self._near(surface, reach)
         found = find_contacts(surface, vertex, edge, reach, before, motion)
         if crossed is not None:
             found = with_pairs(surface, found, *crossed)
@@ -128,6 +124,22 @@ class Partners:
             return found
         apart = self.welded.apart(found)
         return found if apart.all() else found.take(apart)
+
+    def _near(self, surface: Surface, reach: float) -> tuple[Ints, Ints]:
+        """Return vertex and edge (m,) of pairs, all of those that may meet within the reach (m)."""
+        if self._neighbours is None or self._neighbours.skin < 2 * reach:
+            # Wider where that brings hardly any pairs: they are sought to a depth in any case.
+            thinnest = float(surface.thickness.min()) if len(surface) else 0.0
+            skin = max(4 * reach, SKIN * thinnest)
+            self._neighbours = NeighbourList(skin, within_bodies=self._within_bodies)
+        return self._neighbours.update(surface)
+
+    def in_kinks(self, state: State, reach: float, book: JointBook) -> tuple[Ints, Ints]:
+        """Return pairs in kinks of two bodies; see `nmm.contact.detection.kinks.in_kinks`."""
+        surface = self.surface(state)
+        vertex, edge = in_kinks(surface, *self._near(surface, reach), reach)
+        meet = (self.interfaces(vertex, edge) >= 0) & ~book.holds(surface, vertex, edge)
+        return vertex[meet], edge[meet]
 
     def meeting(
         self, surface: Surface, found: Contacts, book: JointBook, first: bool

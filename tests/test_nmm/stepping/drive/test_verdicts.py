@@ -94,10 +94,6 @@ friction_angle = 0.0
 between = ["b", "g"]
 friction_angle = %s
 %s
-[[supports]]
-name = "held"
-block = "ground"
-fix = ["x", "y"]
 """
 """A wedge on a smooth slope of 45 degrees that presses on a block, flush with it, on the flat."""
 MATTER = "[materials.%s]\nyoung_modulus = 1e9\npoisson_ratio = 0.0\ndensity = 2000.0\n"
@@ -108,21 +104,39 @@ OUTLINES = {
 }
 
 
-def toe(friction):
+SIDE_BY_SIDE = {
+    "ground": ("g", [[-4, 4], [-4, -2], [0, -2], [0, 0]]),
+    "ground below the block": ("g", [[0, 0], [0, -2], [6, -2], [6, 0]]),
+}
+
+
+def toe(friction, outlines=OUTLINES, mirrored=False):
     matter = "".join(MATTER % name for name in "gwb")
+    flip = np.array([-1 if mirrored else 1, 1])
     blocks = (
-        f'[[blocks]]\nname = "{name}"\nmaterial = "{of}"\nvertices = {outline}\n'
-        for name, (of, outline) in OUTLINES.items()
+        f'[[blocks]]\nname = "{name}"\nmaterial = "{of}"\nvertices = {(outline * flip).tolist()}\n'
+        for name, (of, outline) in outlines.items()
     )
-    return TOE % (np.arctan(friction), matter + "".join(blocks))
+    held = (
+        f'[[supports]]\nname = "{name}"\nblock = "{name}"\nfix = ["x", "y"]\n'
+        for name, (of, _) in outlines.items()
+        if of == "g"
+    )
+    return TOE % (np.arctan(friction), matter + "".join([*blocks, *held]))
 
 
 # Least pressure on the block: the slope's force N acts at the upper end of the wedge, W of which
 # acts at a third of its width; about the toe W 2/3 = N 2 sqrt(2), and the block, of 2 W, is pushed
 # by N / sqrt(2) = W / 6, while the toe stands on the flat with 5 W / 6. So friction of 1 / 12.
 @pytest.mark.parametrize("share", [0.999, 1.001])
-def test_a_toe_stands_on_the_flat_beside_a_flush_block_in_the_static_theorem(share):
-    made = prepare(nmm.parse_scene(toe(0.3)), nmm.Formulation())
+@pytest.mark.parametrize("ground", [{}, SIDE_BY_SIDE], ids=["one body", "two bodies"])
+@pytest.mark.parametrize("mirrored", [False, True])
+@pytest.mark.parametrize("cover", [{}, {"type": "triangles", "size": 0.5}], ids=["blocks", "mesh"])
+def test_a_toe_stands_on_the_flat_beside_a_flush_block_in_the_static_theorem(
+    share, ground, mirrored, cover
+):
+    scene = nmm.parse_scene(toe(0.3, OUTLINES | ground, mirrored))
+    made = prepare(scene, nmm.Formulation.model_validate({"cover": cover}))
     found = carried(made.stepper, made.start, 1.0, weaker=0.3 * 12 * share)
     assert found.fails == (share > 1)
 
