@@ -235,13 +235,13 @@ def test_a_right_import_passes(tmp_path, path, line):
 
 
 @cache
-def runtime_imports(root: Path) -> set[tuple[str, str]]:
-    """Pairs of modules of which the first imports the second, at once or when it is needed."""
+def pairs_of_modules(root: Path, types: bool) -> set[tuple[str, str]]:
+    """Pairs of which the first imports the second: at once, when needed, or for ``types`` alone."""
     files = [path for package in PACKAGES for path in (root / package).rglob("*.py")]
     known = {module_name(path, root) for path in files}
     pairs = set()
     for path in files:
-        for found in imports_of(path, root, types=False):
+        for found in imports_of(path, root, types):
             there = found.imported
             while there and there not in known:
                 there = there.rpartition(".")[0]
@@ -268,12 +268,22 @@ def folder(module: str) -> str:
 
 
 def test_no_files_import_each_other_in_a_circle():
-    assert not circles(runtime_imports(ROOT))
+    """Nor by imports when they are needed, or for type checkers alone."""
+    assert not circles(pairs_of_modules(ROOT, types=True))
+
+
+def test_a_circle_by_imports_for_types_is_found(tmp_path):
+    (tmp_path / "nmm").mkdir()
+    types = "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from nmm.b import B\n"
+    (tmp_path / "nmm/a.py").write_text(types)
+    (tmp_path / "nmm/b.py").write_text("def f():\n    import nmm.a\n")
+    assert circles(pairs_of_modules(tmp_path, types=True)) == [["nmm.a", "nmm.b"]]
+    assert not circles(pairs_of_modules(tmp_path, types=False))
 
 
 def test_no_folders_import_each_other_in_a_circle():
     """A folder and one inside it count as one: the outer draws on the inner."""
-    pairs = {(folder(a), folder(b)) for a, b in runtime_imports(ROOT)}
+    pairs = {(folder(a), folder(b)) for a, b in pairs_of_modules(ROOT, types=False)}
     apart = {(a, b) for a, b in pairs if not f"{a}.".startswith(f"{b}.")}
     assert not circles({(a, b) for a, b in apart if not f"{b}.".startswith(f"{a}.")})
 

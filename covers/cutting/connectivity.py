@@ -9,7 +9,7 @@ import shapely
 
 from covers.concatenate import numbers
 from covers.cutting.components import components
-from covers.mathematical.base import Cover
+from covers.mathematical.patch_mesh import PatchMesh
 from integration.arrays import Bools, Floats, Ints
 from integration.polygons import Polygons
 
@@ -65,7 +65,7 @@ def bodies(n: int, region: Ints, joins: Joins) -> Ints:
 
 
 def physical_covers(
-    cover: Cover, elements: Polygons, cell: Ints, region: Ints, joins: Joins, touched: Bools
+    cover: PatchMesh, elements: Polygons, cell: Ints, region: Ints, joins: Joins, touched: Bools
 ) -> CoverParts:
     """Return the connected parts of all patches.
 
@@ -96,7 +96,7 @@ def physical_covers(
 
 
 def _shared_patches(
-    cover: Cover, patches: Ints, joins: Joins, doubtful: Bools
+    cover: PatchMesh, patches: Ints, joins: Joins, doubtful: Bools
 ) -> tuple[Ints, Ints]:
     """Pairs of ``element * k + slot`` of the same patch on both sides of a join."""
     k = patches.shape[1]
@@ -113,7 +113,7 @@ def _shared_patches(
     return joins.first[row] * k + a, joins.second[row] * k + b
 
 
-def _reached(cover: Cover, elements: Polygons, patches: Ints, cut: Bools) -> Ints:
+def _reached(cover: PatchMesh, elements: Polygons, patches: Ints, cut: Bools) -> Ints:
     """Patches of each element; -1 where the disc does not meet the element."""
     assert cover.disc_radius is not None
     row, slot = np.nonzero((patches >= 0) & cut[:, None])

@@ -13,7 +13,7 @@ from covers.cutting.cut_boundary import CrackTips, CutBoundary
 from covers.cutting.domain import Domain
 from covers.cutting.pieces import Pieces
 from covers.cutting.resolution import Resolution
-from covers.mathematical.base import Cover
+from covers.mathematical.patch_mesh import PatchMesh
 from integration.arrays import Bools, Floats, Ints
 from integration.polygons import Polygons
 
@@ -105,7 +105,7 @@ class Layer:
 
 
 def assembled(
-    cover: Cover, domain: Domain, layers: list[Layer], resolution: Resolution, moved: float
+    cover: PatchMesh, domain: Domain, layers: list[Layer], resolution: Resolution, moved: float
 ) -> CutCells:
     """Merge all layers: elements one after the other, then covers and bodies of all."""
     pieces = [layer.pieces for layer in layers]

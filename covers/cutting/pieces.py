@@ -9,7 +9,7 @@ import numpy as np
 from covers.cutting.connectivity import Joins
 from covers.cutting.plane_graph.faces import Cells, Faces
 from covers.cutting.plane_graph.half_edges import walks
-from covers.mathematical.base import Cover
+from covers.mathematical.patch_mesh import PatchMesh
 from integration.arrays import Bools, Floats, Ints
 from integration.permutations import inverse
 from integration.plane_vectors import cross
@@ -54,7 +54,7 @@ THIN = 1.0
 DECIMALS = 6
 
 
-def pieces_of(cover: Cover, cells: Cells, faces: Faces, smallest: float, step: float) -> Pieces:
+def pieces_of(cover: PatchMesh, cells: Cells, faces: Faces, smallest: float, step: float) -> Pieces:
     """Return the elements.
 
     Parameters
@@ -91,7 +91,7 @@ def pieces_of(cover: Cover, cells: Cells, faces: Faces, smallest: float, step: f
     )  # fmt: skip
 
 
-def joins_of(cover: Cover, cells: Cells, faces: Faces, pieces: Pieces, group: Ints) -> Joins:
+def joins_of(cover: PatchMesh, cells: Cells, faces: Faces, pieces: Pieces, group: Ints) -> Joins:
     """Return the joined pairs of elements.
 
     Parameters
@@ -151,7 +151,7 @@ def _loop_sizes(faces: Faces) -> tuple[Floats, Floats]:
     return np.asarray(area, dtype=float), np.asarray(perimeter, dtype=float)
 
 
-def _middles(cover: Cover, faces: Faces, loops: Ints) -> Floats:
+def _middles(cover: PatchMesh, faces: Faces, loops: Ints) -> Floats:
     """Rounded centroids (m, 2) of faces in sizes of their cells.
 
     They give the faces of a cell an order that does not depend on that of the lines.
@@ -172,7 +172,7 @@ def _middles(cover: Cover, faces: Faces, loops: Ints) -> Floats:
     return np.asarray(np.round(middle, DECIMALS))
 
 
-def _rings(cover: Cover, faces: Faces, of_loop: Ints, of_cell: Ints) -> tuple[Polygons, Bools]:
+def _rings(cover: PatchMesh, faces: Faces, of_loop: Ints, of_cell: Ints) -> tuple[Polygons, Bools]:
     """Polygons of all elements, and whether each is its whole cell."""
     half, corners = faces.half, cover.cell_vertices.shape[1]
     member = np.flatnonzero(of_loop[half.loop] >= 0)

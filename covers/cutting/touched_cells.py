@@ -8,12 +8,12 @@ import shapely
 
 from covers.cutting.components import components
 from covers.cutting.domain import Segments
-from covers.mathematical.base import Cover
+from covers.mathematical.patch_mesh import PatchMesh
 from integration.arrays import Bools, Floats, Ints
 from integration.ragged import within
 
 
-def touched_cells(cover: Cover, lines: Segments, distance: float, size: float) -> Bools:
+def touched_cells(cover: PatchMesh, lines: Segments, distance: float, size: float) -> Bools:
     """Return which cells (C,) are nearer than ``distance`` (m) to any of the lines.
 
     Parameters
@@ -78,7 +78,7 @@ def _near_bins(first: Floats, last: Floats, low: Floats, high: Floats, size: flo
 
 
 def region_of_cells(
-    cover: Cover, shapes: npt.NDArray[np.object_], regions: Ints, touched: Bools
+    cover: PatchMesh, shapes: npt.NDArray[np.object_], regions: Ints, touched: Bools
 ) -> Ints:
     """Return the region (C,) that contains the middle of each cell, -1 outside all ``regions``.
 

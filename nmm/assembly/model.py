@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from scipy.sparse import csc_array
@@ -93,6 +93,12 @@ class Model(ElasticSolid):
         rest = self._matrix(element_matrices.stiffness, elastic)
         points = self.manifold, self.laws, self.law, self.plane, self.thickness
         return Matter.of(*points, rest, self.cell_size)
+
+    @property
+    def finite_matter(self) -> "FiniteMatter":
+        """Matter of bodies that bend by any angle: where strain is finite."""
+        assert self.finite
+        return cast("FiniteMatter", self.matter)
 
     @property
     def may_bend(self) -> bool:

@@ -10,10 +10,10 @@ from covers.change.transfer import Transfer
 from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
-from nmm.effects.base import Setup
+from nmm.effects.given.setup import Setup
 
 if TYPE_CHECKING:
-    from nmm.effects.initial.changed_materials import KeptStress
+    from nmm.effects.initial.kept_stress import KeptStress
 
 
 @dataclass(frozen=True)

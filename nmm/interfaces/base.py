@@ -11,6 +11,7 @@ from integration.arrays import Bools, Floats
 from nmm.interfaces.history import CUMULATIVE_SLIP, KEPT, History, HistoryColumn
 from nmm.interfaces.passage import Passage
 from nmm.interfaces.response import InterfaceResponse, Traction
+from nmm.interfaces.return_mapping import mapped
 from nmm.registry import Registry
 
 
@@ -145,8 +146,6 @@ class InterfaceLaw(ABC):
         ``slip`` counts from where the contact began; ``stiffness`` (Pa/m) of normal and shear
         spring: the law's own, or that of the formulation's bonds.
         """
-        from nmm.interfaces.return_mapping import mapped
-
         return mapped(self, history, gap, slip, stiffness)
 
     @final

@@ -5,16 +5,13 @@ the law: the shear traction returns to its bound, which may itself depend on the
 """
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
 from integration.arrays import Floats
 from nmm.interfaces.history import History
-from nmm.interfaces.response import Traction
-
-if TYPE_CHECKING:
-    from nmm.interfaces.base import InterfaceLaw
+from nmm.interfaces.response import InterfaceResponse, Traction
 
 ROUNDS, CLOSE = 60, 1e-14
 """Most iterations for the plastic slip, and their tolerance over the largest trial stress."""
@@ -27,8 +24,26 @@ ROUNDED_PLACE = 2e-12
 Stiffness = tuple[Floats, Floats]
 
 
+class LawAtPoint(Protocol):
+    """What is asked of a law, see `nmm.interfaces.base.InterfaceLaw`."""
+
+    def response(self, history: History, stiffness: Floats) -> InterfaceResponse:
+        """Return springs and limits at a fixed history."""
+
+    def evolved(
+        self, history: History, gap: Floats, sliding: Floats, stiffness: Floats
+    ) -> dict[str, Floats]:
+        """Return the history after a step."""
+
+    def overload(self, pull: Floats, shear: Floats) -> Floats:
+        """Return stress over strength (m,) of intact bonds."""
+
+    def broken(self, history: History) -> dict[str, Floats]:
+        """Return the history (m,) of bonds that broke at once."""
+
+
 def mapped(
-    law: "InterfaceLaw", history: History, gap: Floats, slip: Floats, stiffness: Stiffness
+    law: LawAtPoint, history: History, gap: Floats, slip: Floats, stiffness: Stiffness
 ) -> Traction:
     """See `InterfaceLaw.update`."""
     after = _after(law, history, gap, slip, stiffness)
@@ -64,7 +79,7 @@ def _nudge(there: Floats, size: Floats) -> Floats:
 
 
 def _after(
-    law: "InterfaceLaw", history: History, gap: Floats, slip: Floats, stiffness: Stiffness
+    law: LawAtPoint, history: History, gap: Floats, slip: Floats, stiffness: Stiffness
 ) -> dict[str, Floats]:
     """Return the history after a gap and a slip: plastic slip, and broken bonds."""
     trial = stiffness[1] * (slip - history["plastic_slip"])
@@ -99,7 +114,7 @@ def _after(
 
 
 def _traction(
-    law: "InterfaceLaw",
+    law: LawAtPoint,
     before: History,
     after: History,
     gap: Floats,
@@ -112,7 +127,7 @@ def _traction(
 
 
 def _pull(
-    law: "InterfaceLaw", before: History, after: History, gap: Floats, stiffness: Stiffness
+    law: LawAtPoint, before: History, after: History, gap: Floats, stiffness: Stiffness
 ) -> tuple[Floats, Floats, Floats]:
     """Return the normal traction, its derivative and the shear bound, at the limits ``after``.
 

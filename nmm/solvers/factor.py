@@ -5,7 +5,7 @@ judged by their residual; a matrix without inverse is decomposed again with a sh
 """
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol, Self
 
 import numpy as np
 from scipy.sparse import csc_array
@@ -18,9 +18,6 @@ from nmm.solvers.krylov import minimal_residual
 from nmm.solvers.norm import norm
 from nmm.solvers.scaling import scaled
 from nmm.solvers.unchecked import product
-
-if TYPE_CHECKING:
-    from nmm.solvers.linear import LinearSolver
 
 ACCEPTED = 1e-8
 """Largest relative residual of a solution; above it a shifted matrix is tried."""
@@ -52,6 +49,27 @@ class Decomposition(Protocol):
         ...
 
 
+class Decomposer(Protocol):
+    """What is asked of a solver, see `nmm.solvers.linear.LinearSolver`."""
+
+    @property
+    def refinements(self) -> int:
+        """Most steps of refinement after a solution."""
+
+    @property
+    def shift(self) -> float:
+        """Part of the diagonal added before the decomposition."""
+
+    def decompose(self, matrix: csc_array) -> Decomposition:
+        """Factorise a scaled matrix; raise `RankDeficientError` at a zero pivot."""
+
+    def scaling(self, matrix: csc_array) -> Floats:
+        """(n,) factors that bring the matrix to entries of about one."""
+
+    def deflated(self) -> Self:
+        """Return the solver with the shift for rank-deficient matrices."""
+
+
 @dataclass
 class Factor:
     """A factorised matrix.
@@ -71,7 +89,7 @@ class Factor:
         then one of many, the one of least size, for loads that do no work on free motions.
     """
 
-    solver: "LinearSolver"
+    solver: Decomposer
     matrix: csc_array
     scale: Floats
     decomposition: Decomposition
@@ -79,7 +97,7 @@ class Factor:
     _fallback: "Factor | None" = field(default=None, repr=False)
 
     @classmethod
-    def of(cls, solver: "LinearSolver", matrix: csc_array) -> "Factor":
+    def of(cls, solver: Decomposer, matrix: csc_array) -> "Factor":
         """Scale and factorise; a zero pivot leads to the shifted matrix.
 
         Raises
@@ -222,7 +240,7 @@ class Factor:
         return self.scale * x, rest
 
     @classmethod
-    def _shifted(cls, solver: "LinearSolver", matrix: csc_array, scale: Floats) -> "Factor":
+    def _shifted(cls, solver: Decomposer, matrix: csc_array, scale: Floats) -> "Factor":
         shifted = solver.deflated()
         parts = shifted.decompose(scaled(matrix, scale, shifted.shift))
         return cls(shifted, matrix, scale, parts, deflated=True)

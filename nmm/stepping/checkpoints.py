@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, TypeVar, cast
 
 from nmm.results.storage.values import Arrays
 from nmm.stepping.drive.in_time import InTime
+from nmm.stepping.drive.phases import RunPosition
 from nmm.stepping.drive.stages import StagesSoFar
 from nmm.stepping.drive.under_load import UnderLoad
 from nmm.stepping.reports.monitors import monitors
 from nmm.stepping.reports.output import FrameChoice
 from nmm.stepping.reports.recorder import Recorder
-from nmm.stepping.run_state import RunPosition, RunState
+from nmm.stepping.run_state import RunState
 from nmm.stepping.step.stepper import Stepper
 
 if TYPE_CHECKING:

@@ -11,11 +11,11 @@ from nmm.stepping.checkpoints import Checkpoints
 from nmm.stepping.compiled_scene import CompiledScene
 from nmm.stepping.drive.in_time import Schedule
 from nmm.stepping.drive.load_verdicts import with_unheld
-from nmm.stepping.drive.phases import EndedRun, Phases
+from nmm.stepping.drive.phases import EndedRun, Phases, RunPosition
 from nmm.stepping.drive.under_load import Beyond, LoadSchedule, UnderLoad, unseen
 from nmm.stepping.drive.verdict import CONVERGED, FAILURE
 from nmm.stepping.reports.recorder import Recorder
-from nmm.stepping.run_state import RunPosition, RunState
+from nmm.stepping.run_state import RunState
 
 if TYPE_CHECKING:
     from nmm.scene.tables.loading.control import ControlTable

@@ -2,12 +2,10 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 from nmm.results.storage.values import Arrays, Kinds, decoded, encoded
-from nmm.stepping.drive.in_time import InTime
 from nmm.stepping.drive.stages import StagesSoFar
-from nmm.stepping.drive.under_load import UnderLoad
 from nmm.stepping.reports.totals import Totals
 from nmm.stepping.reports.zero import ZeroDisplacement
 from nmm.stepping.step.carried import CarriedState
@@ -15,10 +13,7 @@ from nmm.stepping.step.carried import CarriedState
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
     from nmm.contact.points.contact_points import ContactPoints
-    from nmm.stepping.control.position import OnPath
-
-RunPosition: TypeAlias = "InTime | UnderLoad | OnPath"
-"""Where a run stands in time, under loads that grow, or on a path past the peak."""
+    from nmm.stepping.drive.phases import RunPosition
 
 
 @dataclass(frozen=True)

@@ -75,10 +75,9 @@ class PoreWater(FieldEffect):
         super().__init__(course, stress, conductivity, second)
         self._ground, self._weight, self._filling = ground, weight, filling
         if finite:
-            from nmm.assembly.finite_strain.finite_matter import finite_matter
             from nmm.water.pore_stress import PoreStress
 
-            self._turned = PoreStress(finite_matter(stress.model), self.stress_at)
+            self._turned = PoreStress(stress.model.finite_matter, self.stress_at)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:

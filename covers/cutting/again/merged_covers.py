@@ -9,7 +9,7 @@ from covers.cutting.again.window import Window
 from covers.cutting.components import components
 from covers.cutting.connectivity import Joins, bodies, physical_covers
 from covers.cutting.cut_cells import CutCells
-from covers.mathematical.base import Cover
+from covers.mathematical.patch_mesh import PatchMesh
 from integration.arrays import Bools, Ints
 from integration.permutations import inverse
 
@@ -29,7 +29,7 @@ def merged_bodies(old: CutCells, parts: MergedElements, window: Window) -> Ints:
 
 
 def merged_covers(
-    cover: Cover, old: CutCells, parts: MergedElements, window: Window
+    cover: PatchMesh, old: CutCells, parts: MergedElements, window: Window
 ) -> tuple[Ints, Ints, Ints]:
     """Return the covers (E, k) of elements, and the patch (P,) and an element (P,) of each cover.
 

@@ -11,7 +11,7 @@ from covers.cutting.cut import Cutting
 from covers.cutting.domain import Segments
 from covers.cutting.layers.lines import REACH, CutLines, settled_on, within
 from covers.cutting.touched_cells import touched_cells
-from covers.mathematical.base import Cover
+from covers.mathematical.patch_mesh import PatchMesh
 from integration.arrays import Bools
 
 
@@ -78,7 +78,7 @@ def _apart(before: Segments, now: Segments) -> tuple[Segments, Segments]:
     return before.take(~np.isin(old, new)), now.take(~np.isin(new, old))
 
 
-def _beside(cover: Cover, cells: Bools) -> Bools:
+def _beside(cover: PatchMesh, cells: Bools) -> Bools:
     """Cells (C,) across an edge from some cells (C,)."""
     edge = cover.edges.of_cell[cells].ravel()
     sides = np.concatenate([cover.edges.left[edge], cover.edges.right[edge]])
@@ -87,14 +87,14 @@ def _beside(cover: Cover, cells: Bools) -> Bools:
     return found
 
 
-def _at_corners(cover: Cover, cells: Bools) -> Bools:
+def _at_corners(cover: PatchMesh, cells: Bools) -> Bools:
     """Cells (C,) that share a vertex with some cells (C,), these among them."""
     corner = np.zeros(len(cover.vertices), dtype=bool)
     corner[cover.cell_vertices[cells]] = True
     return np.asarray(corner[cover.cell_vertices].any(axis=1))
 
 
-def _meeting(cracks: Segments, cover: Cover, cells: Bools) -> Segments:
+def _meeting(cracks: Segments, cover: PatchMesh, cells: Bools) -> Segments:
     """Return the segments that meet cells (C,)."""
     shapes = cover.cells.take(cells).to_shapely()
     met = shapely.STRtree(cracks.lines()).query(shapes, predicate="intersects")[1]

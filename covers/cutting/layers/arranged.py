@@ -13,12 +13,12 @@ from covers.cutting.plane_graph.closures import closed_faces
 from covers.cutting.plane_graph.faces import BOUNDARY, CRACK, MESH, Cells, Sources
 from covers.cutting.plane_graph.snap_rounding import lines_between, node
 from covers.cutting.resolution import Resolution
-from covers.mathematical.base import Cover
+from covers.mathematical.patch_mesh import PatchMesh
 from integration.arrays import Ints
 
 
 def arranged(
-    cover: Cover,
+    cover: PatchMesh,
     cells: Cells,
     boundary: Segments,
     cracks: Segments,

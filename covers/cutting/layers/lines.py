@@ -11,7 +11,7 @@ from covers.cutting.domain import Domain, Segments
 from covers.cutting.plane_graph.faces import Cells
 from covers.cutting.resolution import Resolution
 from covers.cutting.touched_cells import region_of_cells, touched_cells
-from covers.mathematical.base import Cover
+from covers.mathematical.patch_mesh import PatchMesh
 from integration.arrays import Bools, Ints
 from integration.polygons import diameters
 
@@ -49,7 +49,7 @@ class CutLines:
 
 
 def lines_of(
-    cover: Cover,
+    cover: PatchMesh,
     domain: Domain,
     layer: int,
     cracks: Segments,
@@ -78,7 +78,7 @@ def within(cracks: Segments, boundary: Segments, margin: float) -> Segments:
     return clipped(cracks, low - margin, high + margin)
 
 
-def _at_the_rim(cover: Cover) -> Bools:
+def _at_the_rim(cover: PatchMesh) -> Bools:
     """Cells (C,) with a corner on the rim of the mesh, where the boundary may run."""
     outer = (cover.edges.left < 0) | (cover.edges.right < 0)
     rim = np.zeros(len(cover.vertices), dtype=bool)
@@ -87,7 +87,7 @@ def _at_the_rim(cover: Cover) -> Bools:
 
 
 def settled_on(
-    cover: Cover, cracks: Segments, boundary: Segments, near: Bools, tolerance: float
+    cover: PatchMesh, cracks: Segments, boundary: Segments, near: Bools, tolerance: float
 ) -> Segments:
     """Return cracks snapped to the boundary and to the mesh of the cells ``near`` them."""
     vertices = np.unique(cover.cell_vertices[near])
@@ -95,7 +95,7 @@ def settled_on(
     return settled(cracks, boundary, cover.vertices[vertices], edges, tolerance)
 
 
-def mesh_segments(cover: Cover, edges: Ints) -> Segments:
+def mesh_segments(cover: PatchMesh, edges: Ints) -> Segments:
     """Return edges of the mesh as segments, with the edge as owner."""
     start, end = cover.edges.start[edges], cover.edges.end[edges]
     return Segments(cover.vertices[start], cover.vertices[end], edges)

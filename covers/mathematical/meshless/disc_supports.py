@@ -13,17 +13,17 @@ discs that it overlaps, so that a body thinner than the discs keeps the best of 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
+from covers.mathematical.meshless.disc_cover import DiscCover
 from covers.mathematical.meshless.kernels import kernel
 from integration.arrays import Bools, Floats
 from integration.rules import polygon_rule
 
 if TYPE_CHECKING:
     from covers.cutting.cut_cells import CutCells
-    from covers.mathematical.meshless.moving_least_squares import MovingLeastSquares
 
 # A disc is removed if its share is below this part of the largest about it, by degree of the basis.
 # Each removed disc makes a coarse grid stiffer, but functions on Shepard weights need larger
@@ -34,8 +34,10 @@ ORDER = 8
 # Points whose kernels are kept in memory at once.
 KERNELS_AT_ONCE = 20_000
 
+Discs = TypeVar("Discs", bound=DiscCover)
 
-def fitted_discs(cover: MovingLeastSquares, cut: CutCells) -> tuple[MovingLeastSquares, CutCells]:
+
+def fitted_discs(cover: Discs, cut: CutCells) -> tuple[Discs, CutCells]:
     """Return cover and cut without discs of too little material.
 
     Elements of a cell that lose different discs get cells of their own.
@@ -72,7 +74,7 @@ def fitted_discs(cover: MovingLeastSquares, cut: CutCells) -> tuple[MovingLeastS
     )
 
 
-def shares(cover: MovingLeastSquares, cut: CutCells) -> Floats:
+def shares(cover: DiscCover, cut: CutCells) -> Floats:
     """Integral (P,) of the squared kernel over the material by that over the whole disc."""
     total = np.zeros(cut.n_covers + 1)
     rule = polygon_rule(cut.elements, ORDER)
@@ -94,7 +96,7 @@ def _disc(name: str) -> float:
     return total
 
 
-def undetermined_discs(cover: MovingLeastSquares, cut: CutCells) -> Bools:
+def undetermined_discs(cover: DiscCover, cut: CutCells) -> Bools:
     """Return the discs (N,) whose fit is ill-determined at points of some element."""
     found = np.zeros(cover.n_patches + 1, dtype=bool)
     rule = polygon_rule(cut.elements, ORDER)

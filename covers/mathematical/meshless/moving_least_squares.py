@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, ClassVar, Self
 import numpy as np
 import numpy.typing as npt
 
-from covers.mathematical.base import Cover
+from covers.mathematical.meshless.disc_cover import DiscCover
+from covers.mathematical.meshless.disc_supports import fitted_discs, undetermined_discs
 from covers.mathematical.meshless.discs import discs_of_cells, with_discs_alike
 from covers.mathematical.meshless.kernels import kernel
 from covers.mathematical.meshless.weighted_fits import fit
@@ -22,59 +23,26 @@ if TYPE_CHECKING:
 
 # Default radius of the discs in spacings of a regular grid of nodes, by degree of the basis.
 RADII = {0: 1.5, 1: 2.0, 2: 3.0, 3: 4.0}
-# Smallest sum of kernels at a point, and eigenvalue of its scaled moments by degree of the basis.
-MIN_KERNEL_SUM = 0.02
-MIN_EIGENVALUE = {0: 0.0, 1: 1e-2, 2: 1e-3, 3: 1e-4}
 # Factor by which discs are enlarged, and the largest number of times.
 GROWTH, ROUNDS = 1.25, 8
 
 
 @dataclass(frozen=True, eq=False)
-class MovingLeastSquares(Cover):
+class MovingLeastSquares(DiscCover):
     """Shape functions of a weighted least-squares fit by polynomials at every point.
 
     With the basis p, kernels phi_i and A = sum phi_i p(x_i) p(x_i)^T the weights are
     w_i(x) = phi_i(x) p(x)^T A(x)^-1 p(x_i) (Nayroles, Touzot and Villon 1992; Belytschko, Lu and
     Gu 1994). Degree 0 is Shepard's formula phi_i / sum phi_j (1968). Rows of inactive patches hold
     -1 in `cell_patches` and zero weights. Cells are the grid on which integrals are taken.
-
-    Attributes
-    ----------
-    radius : (N,)
-        radii of the discs, m.
-    degree : int
-        degree of the basis.
-    kernel : str
-        one of `covers.mathematical.meshless.kernels.KERNELS`.
-    left_out, enlarged : int
-        pieces of discs that reach the material too little to carry functions, and discs whose
-        radius has grown in their place (`covers.mathematical.meshless.disc_supports`).
     """
 
     overlap: ClassVar[float] = 10.0
-    radius: Floats
-    degree: int
-    kernel: str
-    left_out: int = 0
-    enlarged: int = 0
 
     @property
     def precision(self) -> int:
         """All polynomials of the basis, by their values at the nodes."""
         return self.degree
-
-    @property
-    def disc_radius(self) -> Floats:
-        """Radii (N,) of the discs, m."""
-        return self.radius
-
-    @property
-    def mended(self) -> dict[str, int]:
-        said = {
-            "pieces of discs left out that hardly reach the material": self.left_out,
-            "discs enlarged where others hardly reach": self.enlarged,
-        }
-        return {words: number for words, number in said.items() if number}
 
     @classmethod
     def regular(
@@ -180,29 +148,10 @@ class MovingLeastSquares(Cover):
         ValueError
             A point where the discs do not determine the fit.
         """
-        away, radius, value, slope = self._about(cells, points)
+        away, radius, value, slope = self.about(cells, points)
         length = radius.max(axis=1, initial=0.0)
         basis, steps = self._basis(-away / length[:, None, None], length)
         return fit(basis, steps, value, slope, points)
-
-    def kernels(self, cells: Ints, points: Floats) -> Floats:
-        """Kernels (m, k) of the patches of ``cells`` (m,) at points; zero where there is none."""
-        return self._about(cells, points)[2]
-
-    def determined(self, cells: Ints, points: Floats) -> npt.NDArray[np.bool_]:
-        """Whether (m,) the discs of ``cells`` determine the fit at a point.
-
-        The kernels add up to `MIN_KERNEL_SUM`, and the moment matrix, scaled to a diagonal of ones,
-        has no eigenvalue below `MIN_EIGENVALUE` of the degree.
-        """
-        away, radius, value, _ = self._about(cells, points)
-        length = radius.max(axis=1, initial=0.0)
-        basis = evaluate(-away / length[:, None, None], self.degree)
-        moment = np.einsum("mk,mka,mkb->mab", value, basis, basis)
-        scale = 1 / np.sqrt(np.maximum(np.einsum("maa->ma", moment), 1e-300))
-        least = np.linalg.eigvalsh(moment * scale[:, :, None] * scale[:, None, :])[:, 0]
-        enough = value.sum(axis=1) >= MIN_KERNEL_SUM
-        return np.asarray(enough & (least >= MIN_EIGENVALUE[self.degree]))
 
     def settled(self, cut: CutCells, again: Recut) -> tuple[MovingLeastSquares, CutCells]:
         """See `Cover.settled`: leave out discs that reach too little, enlarge their neighbours.
@@ -212,8 +161,6 @@ class MovingLeastSquares(Cover):
         ValueError
             Points whose fit no enlarged disc determines.
         """
-        from covers.mathematical.meshless.disc_supports import fitted_discs, undetermined_discs
-
         cover, radius = self, self.radius
         for _ in range(ROUNDS):  # each enlarges the discs of points whose fit is undetermined
             kept, pieces = fitted_discs(cover, cut)
@@ -221,7 +168,7 @@ class MovingLeastSquares(Cover):
             if not undetermined.any():
                 return replace(kept, enlarged=int((radius > self.radius).sum())), pieces
             radius = np.where(undetermined, GROWTH * radius, radius)
-            cover = self._wider(radius)
+            cover = self.wider(radius)
             cut = again(cover)
         at = self.patch_centre[np.flatnonzero(undetermined)[0]]
         raise ValueError(
@@ -230,25 +177,6 @@ class MovingLeastSquares(Cover):
             f"{GROWTH**ROUNDS:.3g} "
             "times: use a smaller size, a lower degree of the basis or a cover of triangles"
         )
-
-    def _wider(self, radius: Floats) -> MovingLeastSquares:
-        """Return the cover with other radii (N,)."""
-        cells = discs_of_cells(self.patch_centre, radius, self.vertices[self.cell_vertices])
-        return replace(self, cell_patches=cells, patch_size=radius, radius=radius)
-
-    def _about(self, cells: Ints, points: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-        """Offsets (m, k, 2) from the nodes, radii, kernels (m, k) and their gradients (m, k, 2).
-
-        Kernels are zero where the patch is not active.
-        """
-        patches = self.cell_patches[cells]
-        away, radius = points[:, None] - self.patch_centre[patches], self.radius[patches]
-        distance = np.linalg.norm(away, axis=2)
-        value, slope = kernel(self.kernel)(distance / radius)
-        inside = (patches >= 0) & (distance < radius)
-        direction = away / np.where(distance > 0, distance, 1.0)[..., None]
-        gradient = (np.where(inside, slope, 0.0) / radius)[..., None] * direction
-        return away, radius, np.where(inside, value, 0.0), gradient
 
     def _basis(self, xi: Floats, length: Floats) -> tuple[Floats, Floats]:
         """Basis (m, k, K) about the point and its derivative (m, k, K, 2) when the point moves."""

@@ -8,7 +8,7 @@ the rotation (total Lagrangian). Forces are those of the first Piola-Kirchhoff s
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import ClassVar, Self
 
 import numpy as np
 from scipy.sparse import csc_array
@@ -26,9 +26,6 @@ from nmm.assembly.finite_strain.gradients import (
 from nmm.assembly.stress_points import StressPoints, gradients, nearest
 from nmm.errors import SolveError
 from nmm.materials.base import FiniteResponse, History, Law, Response
-
-if TYPE_CHECKING:
-    from nmm.assembly.model import Model
 
 
 @dataclass(frozen=True)
@@ -214,9 +211,3 @@ class FiniteMatter:
 def _by(rates: Floats, stress: Floats) -> Floats:
     """First Piola-Kirchhoff stress (m, 4) of rates of strain (m, 3, 4) and stresses (m, 3)."""
     return np.asarray(np.einsum("mij,mi->mj", rates, stress))
-
-
-def finite_matter(model: "Model") -> FiniteMatter:
-    """Return the matter of a model whose bodies bend by any angle."""
-    assert isinstance(model.matter, FiniteMatter)
-    return model.matter

@@ -5,7 +5,7 @@ at material points. It acts like an initial stress, so that the new law determin
 of further strain.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -15,32 +15,15 @@ from nmm.assembly.laws_at_points import INITIAL, STRESS, SWELLING
 from nmm.assembly.matter import Matter
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
-from nmm.assembly.stress_points import StressPoints, nearest
+from nmm.assembly.stress_points import StressPoints
 from nmm.assembly.transfer.history import nearest_points
 from nmm.effects.base import Effect, Instant, Setup
+from nmm.effects.initial.kept_stress import KeptStress
+from nmm.effects.initial.stress_at_start import StressAtStart
 from nmm.errors import FormulationError
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
-
-
-@dataclass(frozen=True)
-class KeptStress:
-    """The stress difference at the points of blocks whose material has changed.
-
-    Attributes
-    ----------
-    points
-        The Q points.
-    stress
-        (Q, 3) present stress minus that of the new law, in body axes (Pa).
-    beside
-        (Q, 3) initial stress at the points (Pa).
-    """
-
-    points: StressPoints
-    stress: Floats
-    beside: Floats
 
 
 class ChangedMaterials(Effect):
@@ -58,11 +41,7 @@ class ChangedMaterials(Effect):
     def from_setup(cls, setup: Setup) -> Self:
         """Return no stress, as no material has changed yet."""
         _refuse(setup)
-        none = np.zeros(len(setup.model.manifold.elements), dtype=bool)
-        empty = np.zeros((0, 3))
-        return cls(
-            setup.model, KeptStress(StressPoints.of(setup.model.manifold, none), empty, empty)
-        )
+        return cls(setup.model, KeptStress.none(setup.model))
 
     def follow(self, change: "Change") -> Effect:
         """Return the stress on the new model, with that of materials that change now."""
@@ -70,7 +49,7 @@ class ChangedMaterials(Effect):
             return ChangedMaterials(change.new, change.kept)
         region = change.old.manifold.element_region[self.kept.points.rule.owner]
         points = _points(change.new, np.isin(change.new.manifold.element_region, region))
-        stress = self._at(change.old, change.new, points)
+        stress = self.kept.carried(change.old, change.new, points)
         kept = KeptStress(points, stress, _initial(change.setup, points))
         return ChangedMaterials(change.new, kept)
 
@@ -81,7 +60,7 @@ class ChangedMaterials(Effect):
         had = old.model.manifold.element_region[self.kept.points.rule.owner]
         region = new.model.manifold.element_region
         points = _points(new.model, np.isin(region, [*changed, *had]))
-        tau = self._at(old.model, new.model, points)
+        tau = self.kept.carried(old.model, new.model, points)
         there = np.isin(region[points.rule.owner], changed)
         was = _former(old, new, points, before, after)
         now = _answer(old, new, points, after, was)
@@ -91,30 +70,16 @@ class ChangedMaterials(Effect):
         tau += _missing(new, points, after, alike, kept + beside, tau + beside)
         return KeptStress(points, tau, beside)
 
-    def _at(self, old: Model, new: Model, points: StressPoints) -> Floats:
-        """Stress differences (Q, 3) so far at points of the new model; zero without any."""
-        if not len(self.kept.points):
-            return np.zeros((len(points), 3))
-        near = nearest_points(old, self.kept.points, new, points)
-        return np.where(near[:, None] < 0, 0.0, self.kept.stress[near])
-
     def force(self, state: State, end: Instant) -> Floats:
         """Return the force (n,), which is constant in the axes of bodies."""
         return self._force
 
     def mean_stress(self, state: State) -> Floats:
-        found = np.zeros((len(self._model.manifold.elements), 3))
-        if len(self.kept.points):
-            elements, means = self.kept.points.means(self.kept.stress)
-            found[elements] = means
-        return found
+        return self.kept.mean(self._model)
 
     def stress_at(self, elements: Ints, points: Floats, time: float) -> Floats:
         """See `Effect.stress_at`: the stress of the nearest material point."""
-        if not len(self.kept.points):
-            return np.zeros((len(elements), 3))
-        at = nearest(self.kept.points.rule, elements, points)
-        return np.where(at[:, None] < 0, 0.0, self.kept.stress[at])
+        return self.kept.at(elements, points)
 
     def energy(self, state: State) -> float:
         """Energy (J) that it adds to those of the strain and of the initial stress."""
@@ -156,8 +121,6 @@ def _points(model: Model, chosen: Bools) -> StressPoints:
 def _initial(setup: Setup, points: StressPoints) -> Floats:
     if not setup.scene.initial_stresses:
         return np.zeros((len(points), 3))
-    from nmm.effects.initial.stress_at_start import StressAtStart
-
     rule = points.rule
     return StressAtStart.declared(setup).at(setup.model, rule.owner, rule.points)[:, :3]
 

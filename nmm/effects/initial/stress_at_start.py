@@ -14,7 +14,7 @@ from nmm.errors import Fault, SceneError
 from nmm.materials.base import Law
 
 if TYPE_CHECKING:
-    from nmm.effects.base import Setup
+    from nmm.effects.given.setup import Setup
     from nmm.scene.tables.initial import InitialStressTable
 
 

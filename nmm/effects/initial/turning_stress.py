@@ -5,7 +5,6 @@ from functools import partial
 from typing import Self
 
 from integration.arrays import Floats
-from nmm.assembly.finite_strain.finite_matter import finite_matter
 from nmm.assembly.finite_strain.given_stress import GivenStress
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
@@ -30,7 +29,7 @@ class TurningStress:
     @classmethod
     def of(cls, model: Model, stress_at: StressAt, constant: bool = False) -> Self:
         """Return the stress of an effect by its `Effect.stress_at`, called once if ``constant``."""
-        matter = finite_matter(model)
+        matter = model.finite_matter
         rule = matter.points.rule
         at = partial(stress_at, rule.owner, rule.points)
         if constant:

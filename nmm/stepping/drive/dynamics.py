@@ -15,10 +15,10 @@ from nmm.stepping.drive.stable_step import longest_step, singular_mass
 from nmm.stepping.drive.until_verdict import broken_off
 from nmm.stepping.drive.verdict import CONVERGED, FAILED, SPENT, RunVerdict
 from nmm.stepping.reports.recorder import Recorder
-from nmm.stepping.step.anchors import left_alone
 from nmm.stepping.step.budget import BudgetSpentError
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
+from nmm.stepping.step.unopposed import left_alone
 
 # The state before the last attempt of a step, the attempt, how the run goes on, and why it was cut.
 Taken = tuple[State, Attempt, InTime, str]

@@ -9,8 +9,9 @@ from nmm.stepping.drive.equilibrium.relaxation import RelaxationEnd
 from nmm.stepping.drive.equilibrium.settling import SettledStep
 from nmm.stepping.drive.under_load import Beyond, LoadSchedule, UnderLoad
 from nmm.stepping.drive.verdict import COLLAPSED, CONVERGED, FAILED, FAILURE, RunVerdict
-from nmm.stepping.step.anchors import ANCHOR, unheld
+from nmm.stepping.step.anchors import ANCHOR
 from nmm.stepping.step.stepper import Stepper
+from nmm.stepping.step.unopposed import unheld
 
 
 def with_unheld(

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol, TypeVar
+from typing import TYPE_CHECKING, Protocol, TypeAlias, TypeVar
 
 from nmm.assembly.state import State
 from nmm.progress import Progress
@@ -15,10 +15,12 @@ from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.stepper import Stepper
 
 if TYPE_CHECKING:
-    from nmm.stepping.run_state import RunPosition
+    from nmm.stepping.control.position import OnPath
 
 At = TypeVar("At", InTime, UnderLoad)
 EndedRun = tuple[State, RunVerdict]
+RunPosition: TypeAlias = "InTime | UnderLoad | OnPath"
+"""Where a run stands in time, under loads that grow, or on a path past the peak."""
 
 
 class Keeps(Protocol):

@@ -16,6 +16,7 @@ from nmm.integrators.damping import Damping
 from nmm.model.discretisation import ModelWithEffects
 from nmm.solvers.known import gross, is_rounding
 from nmm.solvers.unchecked import product
+from nmm.stepping.step.anchors import anchors
 from nmm.stepping.step.equations import Equations, InertiaTerms, Linearisation
 from nmm.stepping.step.kept_sum import KeptSum
 
@@ -155,8 +156,6 @@ class Assembly:
         """Return a stiffness with anchors."""
         kept = self._soft
         if kept is None or kept[0] is not stiffness:
-            from nmm.stepping.step.anchors import anchors
-
             kept = stiffness, csc_array(stiffness + anchors(self._solved.model))
             self._soft = kept
         return kept[1]

@@ -10,9 +10,9 @@ import numpy as np
 
 from nmm.assembly.state import State
 from nmm.effects.base import Instant
-from nmm.stepping.step.anchors import too_weak, unopposed
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
+from nmm.stepping.step.unopposed import too_weak, unopposed
 
 if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints

@@ -9,7 +9,8 @@ import nmm
 from nmm.effects.base import Instant
 from nmm.formulation import Formulation
 from nmm.stepping.prepare import prepare
-from nmm.stepping.step.anchors import ANCHOR, too_weak
+from nmm.stepping.step.anchors import ANCHOR
+from nmm.stepping.step.unopposed import too_weak
 
 STACK = """
 plane = "stress"
