@@ -34,17 +34,16 @@ def domain_radius(cut: CutCells, tip: int, wanted: float) -> float:
     bent = off_line(edges.start, edges.end, point, cut.tips.direction[tip], BENT)
     others = (edges.body == cut.element_body[cut.tips.element[tip]]) & bent
     others &= edges.crack != cut.tips.crack[tip]
-    gap = _distances(point, edges.start[others], edges.end[others])
-    clear = float(gap.min(initial=np.inf))
+    nearest = nearest_points(point, edges.start[others], edges.end[others])
+    clear = float(np.hypot(*(nearest - point).T).min(initial=np.inf))
     return min(max(min(wanted, clear), wanted / 2), OPEN * farthest_face(cut, tip))
 
 
-def _distances(point: Floats, start: Floats, end: Floats) -> Floats:
-    """Distances (n,) of a point from segments from ``start`` to ``end`` (n, 2) (m)."""
+def nearest_points(point: Floats, start: Floats, end: Floats) -> Floats:
+    """Points (n, 2) nearest to a point (2,) on segments from ``start`` to ``end`` (n, 2) (m)."""
     along = end - start
     share = np.sum((point - start) * along, axis=1) / np.maximum(np.sum(along**2, axis=1), 1e-300)
-    nearest = start + np.clip(share, 0.0, 1.0)[:, None] * along
-    return np.asarray(np.hypot(*(point - nearest).T))
+    return np.asarray(start + np.clip(share, 0.0, 1.0)[:, None] * along)
 
 
 def off_line(start: Floats, end: Floats, point: Floats, ahead: Floats, share: float) -> Bools:

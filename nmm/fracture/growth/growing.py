@@ -2,7 +2,7 @@
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import astuple, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
@@ -23,6 +23,7 @@ from nmm.fracture.growth.grown import GrownSoFar
 from nmm.fracture.growth.refusals import refuse
 from nmm.fracture.growth.rule import GrowthRule
 from nmm.fracture.growth.small_holes import small_holes
+from nmm.fracture.growth.tips.crowded_tips import crowding
 from nmm.fracture.growth.tips.intensities import Intensities
 from nmm.fracture.growth.tips.measured import MeasuredTips
 from nmm.fracture.growth.tips.parallel_stress import kink_without_end_shear, parallel_stress
@@ -102,6 +103,11 @@ class GrowingCracks(Effect):
         """Largest ratio -K_I / |K| at which a crack has grown."""
         return self._sofar.shut
 
+    @property
+    def crowded(self) -> float:
+        """Largest `crowding` of tips that have grown, and of those that are left."""
+        return max(self._sofar.crowded, crowding(self._setup.model.cut, self._measured.tip))
+
     def arrived(self, factor: float, stored: float) -> float:
         """Record an equilibrium at the toughness; return the energy (J) beyond the secant's.
 
@@ -165,7 +171,8 @@ class GrowingCracks(Effect):
         if not len(rows):
             return self._nucleation.event(view.state, self.continuous)
         grown = found.take(rows)
-        self._sofar = self._sofar.seen(grown.shut)
+        crowded = crowding(self._setup.model.cut, grown.tip)
+        self._sofar = self._sofar.seen(grown.shut, crowded)
         cracks, what = self._extended(self._with_parallel_stress(grown, view.state))
         return Event(replace(geometry, cracks=cracks), what, continuous=self.continuous)
 
@@ -241,8 +248,8 @@ class GrowingCracks(Effect):
         return {key: float(value) for key, value in row.items()}
 
     def carried(self) -> tuple[Any, ...]:
-        """Growth of each front (m), its fracture energy (J), and the largest -K_I / |K|."""
-        return self._sofar.length, self._sofar.energy, self._sofar.shut
+        """Growth of each front (m), its fracture energy (J), largest -K_I / |K| and crowding."""
+        return astuple(self._sofar)
 
     def carry(self, carried: tuple[Any, ...]) -> None:
         self._sofar = GrownSoFar(*carried)

@@ -25,15 +25,18 @@ class GrownSoFar:
         Fracture energy of the whole growth (J).
     shut
         Largest ratio -K_I / |K| at which a front has grown.
+    crowded
+        Largest `crowding` of tips at which a front has grown.
     """
 
     length: Floats
     energy: float
     shut: float = 0.0
+    crowded: float = 0.0
 
-    def seen(self, shut: float) -> "GrownSoFar":
-        """Return the same with the ratio -K_I / |K| ``shut`` of tips that are about to grow."""
-        return replace(self, shut=max(self.shut, shut))
+    def seen(self, shut: float, crowded: float) -> "GrownSoFar":
+        """Return the same with -K_I / |K| ``shut`` and `crowding` of tips about to grow."""
+        return replace(self, shut=max(self.shut, shut), crowded=max(self.crowded, crowded))
 
     def after(
         self, model: Model, fronts: CrackFronts, lines: Sequence[Sequence[Floats]], rule: Toughness
@@ -56,7 +59,7 @@ class GrownSoFar:
         stiff = tip_moduli(model, nearest_elements(model, fronts.former(*lines)[grown]))[1]
         energy = model.thickness * gained[grown] @ rule.energies(stiff)
         length = np.pad(self.length, (0, len(gained) - len(self.length)))
-        return GrownSoFar(length + gained, self.energy + float(energy), self.shut)
+        return replace(self, length=length + gained, energy=self.energy + float(energy))
 
 
 def nearest_elements(model: Model, points: Floats) -> Ints:

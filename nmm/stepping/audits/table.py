@@ -187,6 +187,13 @@ THRESHOLDS: dict[str, Threshold] = {
         None,
         "`[fracture]`",
     ),
+    "crowded_tips": Threshold(
+        "one and a half cells over the distance of a tip from a crack beside it, or 0.6 cells over "
+        "that from an edge",
+        1.0,
+        None,
+        "`[fracture]`",
+    ),
     "nucleation_length": Threshold(
         "largest stress over the strength of cracks that begin, where no line of the mean fits "
         "across what is pulled",

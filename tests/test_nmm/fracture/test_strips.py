@@ -18,11 +18,18 @@ STIFF = 1 / (1 - POISSON**2)
 
 def intensities(tables: Sequence[str], more: str = "") -> Floats:
     """Return K_I and K_II (n, 2) of all tips of a body of modulus one in plane strain."""
+    found, told = judged(tables, more)
+    assert not told
+    return found
+
+
+def judged(tables: Sequence[str], more: str = "") -> tuple[Floats, Sequence[str]]:
+    """Return the same, and what the run warns of."""
     matter = text.material("m", 1.0, POISSON, None)
     run = nmm.run(parse_scene(text.scene('plane = "strain"', [matter, *tables, STILL + more])))
-    assert not run.summary.warnings
     fronts = [name.removesuffix(":K_I") for name in run.history if name.endswith(":K_I")]
-    return np.array([[run.history[f"{one}:{k}"][-1] for k in ("K_I", "K_II")] for one in fronts])
+    found = [[run.history[f"{one}:{k}"][-1] for k in ("K_I", "K_II")] for one in fronts]
+    return np.array(found), run.summary.warnings
 
 
 def driven(name: str, y: float, length: float, fix: str, way: float) -> str:
@@ -51,21 +58,32 @@ def test_ten_tips_of_a_row_of_cracks_have_its_intensity() -> None:
     assert found / np.sqrt(np.tan(0.3 * np.pi)) == pytest.approx(np.tile([1, 0], (10, 1)), abs=3e-3)
 
 
-def test_four_parallel_cracks_free_what_a_strip_stores() -> None:
+FOUR_ALIKE = STIFF / np.sqrt(2)  # stress E' over the root of twice the distance
+
+
+def parallel(cell: float) -> list[str]:
     """Long cracks one above the other: each frees the energy of a metre of what is ahead of it."""
-    cracks = [crack(f"c{n}", [[-0.1, n + 0.5], [3.0, n + 0.5]]) for n in range(4)]
-    found = intensities(
-        [
-            text.block("strip", "m", text.rectangle((0, 0), (6, 4))),
-            *cracks,
-            driven("bottom", 0, 6, '"y"', 0),
-            driven("top", 4, 6, '"y"', 4),
-            text.fixed_point("end", [6.0, 0.0], "x"),
-            net(0.15, 11.0),
-        ]
-    )
-    expected = STIFF / np.sqrt(2)  # stress E' over the root of twice the distance
-    assert found / expected == pytest.approx(np.tile([1, 0], (4, 1)), abs=1e-3)
+    return [
+        text.block("strip", "m", text.rectangle((0, 0), (6, 4))),
+        *(crack(f"c{n}", [[-0.1, n + 0.5], [3.0, n + 0.5]]) for n in range(4)),
+        driven("bottom", 0, 6, '"y"', 0),
+        driven("top", 4, 6, '"y"', 4),
+        text.fixed_point("end", [6.0, 0.0], "x"),
+        net(cell, 11.0),
+    ]
+
+
+def test_four_parallel_cracks_free_what_a_strip_stores() -> None:
+    found = intensities(parallel(0.15)) / FOUR_ALIKE
+    assert found == pytest.approx(np.tile([1, 0], (4, 1)), abs=1e-3)
+
+
+@pytest.mark.parametrize("cell", [0.5, 1.0])
+def test_cracks_beside_a_tip_are_told_before_they_cost_a_percent(cell: float) -> None:
+    found, told = judged(parallel(cell))
+    assert any("beside a tip" in one for one in told) == (cell == 1.0)
+    if not told:
+        assert found / FOUR_ALIKE == pytest.approx(np.tile([1, 0], (4, 1)), abs=0.01)
 
 
 @pytest.mark.parametrize(("height", "radius"), [(1.0, 0.4), (1.0, 0.8), (0.8, 0.4)])
