@@ -13,4 +13,6 @@ Index = npt.NDArray[np.int32]  # patterns of sparse matrices
 
 def same(one: npt.NDArray[Any], other: npt.NDArray[Any]) -> bool:
     """Whether two arrays are one object, or as long as each other with the same entries."""
-    return one is other or (len(one) == len(other) and bool((one == other).all()))
+    if one is other or one.shape != other.shape:
+        return one is other
+    return bool(np.logical_and.reduce(one == other, axis=None))

@@ -32,11 +32,11 @@ class Rows:
 
     def apply(self, unknowns: Floats) -> Floats:
         """Displacement (m, 2) at the points for the vector (n,) of all unknowns."""
-        return np.asarray(contract("mcl,ml->mc", self.values, unknowns[self.unknowns]))
+        return contract("mcl,ml->mc", self.values, unknowns[self.unknowns])
 
     def along(self, directions: Floats) -> Floats:
         """Rows (m, L) of the displacement along a direction (m, 2) at each point."""
-        return np.asarray(contract("mcl,mc->ml", self.values, directions))
+        return contract("mcl,mc->ml", self.values, directions)
 
     def spread(self, directions: Floats, n_unknowns: int) -> Floats:
         """Return the load vector (n,) of forces (m, 2) at the points."""

@@ -86,7 +86,7 @@ class ElasticSolid(Solid):
         strain = self.mean_strain(deformation)
         known = self.pressure(deformation) if pressure is None else pressure
         if known is None:
-            return np.asarray(contract("eij,ej->ei", self.elasticity, strain))
+            return contract("eij,ej->ei", self.elasticity, strain)
         assert self.pressures is not None
         mean = (self.pressures.integrals(self.manifold) @ known) / self.element_area
         return np.asarray(contract("eij,ej->ei", self.drained, strain) + mean[:, None] * ISOTROPIC)

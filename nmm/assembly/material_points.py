@@ -66,7 +66,7 @@ class MaterialPoints:
         found = frames.way[self.body] + frames.to_global(self.body, local)
         if some(frames.angle):
             found = found + contract("mij,mj->mi", frames.turn[self.body], self.arm)
-        return np.asarray(found)
+        return found
 
     def along(self, frames: Frames, directions: Floats) -> Floats:
         """Rows (m, L) of the motion along global directions (m, 2)."""

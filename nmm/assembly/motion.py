@@ -23,7 +23,7 @@ def move(model: Model, state: State, increment: Floats) -> State:
     modes = model.manifold.rigid_modes
     rigid = product(model.rigid_projection, increment).reshape(-1, 3)
     frames = state.frames
-    shift = np.asarray(contract("mij,mj->mi", frames.rotation, rigid[:, :2]))
+    shift = contract("mij,mj->mi", frames.rotation, rigid[:, :2])
     moved = Frames(
         frames.centre + shift,
         frames.angle + rigid[:, 2],

@@ -56,11 +56,11 @@ class Frames:
 
     def to_global(self, body: Ints, vectors: Floats) -> Floats:
         """Turn vectors (m, 2) from body axes to global axes."""
-        return np.asarray(contract("mij,mj->mi", self.rotation[body], vectors))
+        return contract("mij,mj->mi", self.rotation[body], vectors)
 
     def to_body(self, body: Ints, vectors: Floats) -> Floats:
         """Turn vectors (m, 2) from global axes to body axes."""
-        return np.asarray(contract("mji,mj->mi", self.rotation[body], vectors))
+        return contract("mji,mj->mi", self.rotation[body], vectors)
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from typing import ClassVar, Self
 import numpy as np
 
 from integration.arrays import Floats
-from integration.contraction import contract
+from integration.contraction import contract, summed
 from integration.plane_vectors import clockwise
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
@@ -69,7 +69,7 @@ class Springs(Imposition):
         return found + self._laid(state) if self._stretched else found
 
     def energy(self, state: State, jump: Floats) -> float:
-        return -0.5 * float((jump * self._against(state, jump)).sum())
+        return -0.5 * float(summed(jump * self._against(state, jump), axis=None))
 
     def laid_energy(self, state: State, jump: Floats) -> float:
         return -float((jump * self._laid(state)).sum()) if self._stretched else 0.0
@@ -96,7 +96,7 @@ class Springs(Imposition):
     def _against(self, state: State, way: Floats) -> Floats:
         """Forces (m, 2) in N against ways (m, 2) of the first side."""
         if self.stiffness.ndim == 1:
-            return np.asarray(-(self.stiffness[:, None] * way))
+            return -(self.stiffness[:, None] * way)
         return -self._pulled(state, way[:, :, None])[:, :, 0]
 
     @property

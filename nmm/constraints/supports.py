@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from integration.arrays import Floats
+from integration.contraction import summed
 from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
@@ -28,6 +29,7 @@ from nmm.effects.acting_place import acting_place
 from nmm.effects.base import Instant, Setup
 from nmm.effects.motion.ground import Ground
 from nmm.effects.motion.reactions import Reactions
+from nmm.frozen import MadeOnce
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
@@ -129,8 +131,9 @@ class Supports(TiedInterfaces):
             )
         return found
 
-    @property
+    @MadeOnce
     def steady(self) -> bool:
+        """Whether the ground stands still."""
         return all(ground.still for ground in self._grounds)
 
     @property
@@ -171,7 +174,7 @@ class Supports(TiedInterfaces):
     def reactions(self, state: State) -> dict[str, Floats]:
         """Return the force (2,) in N that each support exerts on the bodies."""
         found = self._at_points(state)
-        return {tie.interface.name: forces.sum(axis=0) for tie, forces in found}
+        return {tie.interface.name: summed(forces) for tie, forces in found}
 
     def applied_forces(self, state: State) -> AppliedForces:
         """See `Effect.applied_forces`: what supports exert within bodies and on crack faces."""

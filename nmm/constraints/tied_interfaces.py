@@ -190,9 +190,10 @@ class TiedInterfaces(Effect):
 
     def energy(self, state: State) -> float:
         """Energy (J) stored in ``state``, with places of its own instant."""
-        pairs = self._each(state, Instant.of(state))
-        stored = sum(tie.energy(state, jump) for tie, jump in pairs)
-        return stored + self.received_stress_energy(state)
+        now = Instant.of(state)
+        held = self._each(state, now)
+        stored = (tie.energy(state, jump) + tie.laid_energy(state, jump) for tie, jump in held)
+        return sum(stored) - self._felt(state, now)
 
     def received_stress_energy(self, state: State) -> float:
         """See `Effect.received_stress_energy`: minus their tractions times the jumps.
@@ -201,7 +202,7 @@ class TiedInterfaces(Effect):
         """
         now = Instant.of(state)
         laid = sum(tie.laid_energy(state, jump) for tie, jump in self._each(state, now))
-        return laid - (self._felt(state, now) if self._stresses else 0.0)
+        return laid - self._felt(state, now)
 
     def work(self, before: State, after: State) -> float:
         """Work (J) of these stresses as they change, on the mean jump of both ends of the step."""
@@ -212,7 +213,9 @@ class TiedInterfaces(Effect):
         return -sum(rise) / 2
 
     def _felt(self, state: State, at: Instant) -> float:
-        """Tractions of stresses at an instant times the jumps of a state (J)."""
+        """Tractions of stresses at an instant times the jumps of a state (J); zero without any."""
+        if not self._stresses:
+            return 0.0
         pairs = self._each(state, Instant.of(state))
         return sum(float(np.sum(jump * self._added(tie, state, at))) for tie, jump in pairs)
 

@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from integration.arrays import Floats
+from integration.contraction import summed
 from integration.plane_vectors import QUARTER_TURN
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
@@ -37,7 +38,7 @@ class DeadLoad:
     def work(self, before: State, after: State, pushed: tuple[Floats, Floats]) -> float:
         """Return the work (J) between two states; ``pushed`` are the load vectors (n,) in both."""
         way = after.frames.centre - before.frames.centre
-        found = float((self._force * way).sum())
+        found = float(summed(self._force * way, axis=None))
         if self._lever is not None:
             found += float(np.sum(self._lever * (turned(after) - turned(before))))
         return found + float(pushed[1] @ after.deformation - pushed[0] @ before.deformation)

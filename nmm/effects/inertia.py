@@ -40,6 +40,7 @@ class Inertia(Effect):
         self.mass: csc_array = model.mass
         self._spins = KeptOfStates(self._spin)
         self._outwards = KeptOfStates(self._centrifugal)
+        self._forces = KeptOfStates(self._force)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -48,6 +49,9 @@ class Inertia(Effect):
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the centrifugal force of the rotation at the start of the step."""
+        return self._forces.of(state)
+
+    def _force(self, state: State) -> Floats:
         outwards = self._outwards.of(state)
         return product(self.mass, outwards) if some(outwards) else outwards
 

@@ -99,18 +99,19 @@ class ModelWithEffects(Protocol):
         """The effects on it."""
 
 
-@dataclass
 class CurrentDiscretisation:
-    """The discretisation of a run as it is now, shared by all that solve its steps."""
+    """The discretisation of a run as it is now, shared by all that solve its steps.
 
-    discretisation: Discretisation
+    Attributes
+    ----------
+    discretisation, model, plan
+        It, its model and its effects, for which a step asks dozens of times.
+    """
 
-    @property
-    def model(self) -> "Model":
-        """Its model."""
-        return self.discretisation.setup.model
+    def __init__(self, discretisation: Discretisation) -> None:
+        self.become(discretisation)
 
-    @property
-    def plan(self) -> Plan:
-        """Its effects."""
-        return self.discretisation.plan
+    def become(self, discretisation: Discretisation) -> None:
+        """Solve another one from now on."""
+        self.discretisation, self.plan = discretisation, discretisation.plan
+        self.model: Model = discretisation.model

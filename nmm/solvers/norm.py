@@ -2,11 +2,10 @@
 
 from math import sqrt
 
-import numpy as np
-
 from integration.arrays import Floats
+from integration.contraction import contract
 
 
 def norm(vector: Floats) -> float:
     """Return the norm of a vector (n,), without the threads that BLAS starts for long ones."""
-    return sqrt(float(np.einsum("i,i->", vector, vector)))
+    return sqrt(float(contract("i,i->", vector, vector)))

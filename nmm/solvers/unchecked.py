@@ -50,8 +50,8 @@ def made_of(
 ) -> Matrix:
     """Return a compressed matrix of arrays that fit each other, which it keeps."""
     made = kind.__new__(kind)
-    made.__dict__.update(_EMPTY[kind])
-    made.__dict__.update(data=data, indices=indices, indptr=indptr, _shape=shape)
+    parts = {"data": data, "indices": indices, "indptr": indptr, "_shape": shape}
+    made.__dict__.update(_EMPTY[kind] | parts)
     return made
 
 

@@ -133,7 +133,7 @@ class Nitsche(Imposition):
     def _traction(self, state: State) -> Floats:
         """Average traction (m, 2) on the first side (Pa)."""
         unknowns, flux = in_global_axes(self.fluxes, state.frames)
-        return np.asarray(contract("mcl,ml->mc", flux, state.deformation[unknowns]))
+        return contract("mcl,ml->mc", flux, state.deformation[unknowns])
 
     def _consistent(self, state: State, jump: Floats) -> Floats:
         """Forces (m, 2) in N of the average traction and the penalty on the first side."""

@@ -32,6 +32,8 @@ class Partners:
         The boundary edges as they move with the unknowns.
     welded
         Where both faces of a crack are one; None where faces of one body never meet.
+    surface
+        From a state to its edges (`Surface`); those at the start and at the end of a step are kept.
 
     Parameters
     ----------
@@ -66,6 +68,7 @@ class Partners:
         self._origin, self._whole_faces = origin, whole_faces
         self._neighbours: NeighbourList | None = None
         self._surfaces = KeptOfPlaces(self._surface)
+        self.surface = self._surfaces.of
         boundary = model.manifold.boundary
         self._region = model.manifold.element_region[boundary.element]
 
@@ -73,10 +76,6 @@ class Partners:
         """Drop the list of neighbours and the surfaces of states: kept for speed alone."""
         self._neighbours = None
         self._surfaces.forget()
-
-    def surface(self, state: State) -> Surface:
-        """Edges of a state; those at the start and at the end of a step are kept."""
-        return self._surfaces.of(state)
 
     def _surface(self, state: State) -> Surface:
         return self.sides.moved(state.frames, state.deformation)

@@ -37,10 +37,10 @@ def start_from(
     islands
         Each of which has a start of its own; None: there is one.
     """
-    points = [np.zeros(len(springs.problem.force)), *known[: None if mixes else 1]]
+    points = [np.zeros(springs.problem.force.shape), *known[: None if mixes else 1]]
     if len(points) == 1:
         return points[0]
-    one = np.zeros(len(points[0]), dtype=np.int64) if islands is None else islands.unknown
+    one = np.zeros(points[0].shape, dtype=np.int64) if islands is None else islands.unknown
     count = 1 if islands is None else islands.count
     found: Floats = _nearest(np.array(points), mixes, one, count, springs.columns)
     return found

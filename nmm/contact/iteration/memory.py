@@ -159,7 +159,7 @@ class Memory:
         if not every(np.isfinite(increment)):
             return
         again = self._load is not None and _equal(self._load, load)
-        before = [old for old in self.found[int(again) :] if len(old) == len(increment)]
+        before = [old for old in self.found[int(again) :] if old.shape == increment.shape]
         self.found = [increment, *before[: self.options.steps - 1]]
         self._load = load
 
@@ -189,8 +189,8 @@ def _equal(a: Any, b: Any) -> bool:
         return True
     if a is None or b is None:
         return False
-    if isinstance(a, Limits):
-        return all(_equal(x, getattr(b, name)) for name, x in vars(a).items())
     if isinstance(a, np.ndarray):
         return same(a, b)
+    if isinstance(a, Limits):
+        return all(_equal(x, getattr(b, name)) for name, x in vars(a).items())
     return all(map(same, compressed(a), compressed(b)))

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
+from integration.contraction import summed
 from nmm.contact.laws.law_facts import LawFacts
 from nmm.contact.points.contact_points import TIED, ContactPoints
 from nmm.contact.points.kept import of_pairs
@@ -92,7 +93,7 @@ class ContactLaws(LawFacts):
         if TIED in after:  # no spring of whole bonds may be too soft: terms hold them
             spring = np.where(contacts.tied, np.inf, spring)
         for law, index, history in self.by_law(contacts):
-            if len(index) == len(contacts):
+            if index.shape == contacts.gap.shape:
                 after |= law.evolved(history, gap, sliding, spring)
                 continue
             given = gap[index], sliding[index], spring[index]
@@ -151,8 +152,8 @@ class ContactLaws(LawFacts):
         damper holds back keeps the energy of its compression while no force acts.
         """
         normal, shear, own = self.springs(contacts)
-        damped = self.damped(contacts) & ~contacts.tied
-        bonded = contacts.bonded
+        bonded, free = contacts.bonded, ~contacts.tied
+        damped = self.damped(contacts) & free
         pressed_by = contacts.gap
         if self.evolving:
             response = self.response(contacts, normal)
@@ -161,10 +162,10 @@ class ContactLaws(LawFacts):
             pressed_by = contacts.gap - response.rise
         # Bonds carry what their stretch says, also where they were laid just now.
         acts = bonded | (contacts.normal_force != 0) | (contacts.shear_force != 0)
-        acts &= (own | damped | (not own_only)) & ~contacts.tied
+        acts &= (own | damped | (not own_only)) & free
         stretch = np.where(bonded, pressed_by, np.minimum(pressed_by, 0.0))
-        pressed = (normal * stretch**2)[acts | damped].sum()
-        return float(pressed + (shear * contacts.slip**2)[acts].sum()) / 2
+        pressed = summed((normal * stretch**2)[acts | damped])
+        return float(pressed + summed((shear * contacts.slip**2)[acts])) / 2
 
     @of_pairs
     def hold(self, contacts: ContactPoints) -> bool:
@@ -193,7 +194,7 @@ class ContactLaws(LawFacts):
         """Yield each law with its contacts and their history, columns of its own alone."""
         for law, index in self._members(contacts):
             names, known = (*KEPT, *law.columns), contacts.history
-            if len(index) == len(contacts):
+            if index.shape == contacts.gap.shape:
                 yield law, index, {name: known[name] for name in names}
             else:
                 yield law, index, {name: known[name][index] for name in names}

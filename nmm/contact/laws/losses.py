@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from integration.arrays import Bools, Floats
-from integration.contraction import some
+from integration.contraction import some, summed
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.points.contact_points import AT_ENDS, ContactPoints
 from nmm.contact.problem.coulomb import shear_bound
@@ -62,7 +62,7 @@ class ContactLosses:
         if static:
             rubbed *= self._mean_share
         taken = (area @ dissipated for _, _, area, dissipated in self._softened)
-        return float(rubbed[~self.softening].sum() + sum(taken))
+        return float(summed(rubbed[~self.softening]) + sum(taken))
 
     def beyond_means(self) -> float:
         """Energy (J) that softening took beyond what mean forces of both ends say."""
@@ -96,7 +96,7 @@ class ContactLosses:
 def softening(laws: ContactLaws, contacts: ContactPoints, limits: Limits) -> Bools:
     """Return which contacts (m,) are bonds that lose their strength in the course of steps."""
     if not laws.hold(contacts):
-        return np.zeros(len(contacts), dtype=bool)
+        return np.zeros(contacts.gap.shape, dtype=bool)
     return contacts.bonded & ~contacts.tied & np.isfinite(limits.tension)
 
 

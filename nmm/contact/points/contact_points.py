@@ -119,7 +119,7 @@ class ContactPoints:
     def tied(self) -> Bools:
         """Which of the bonds consistent terms hold (`nmm.contact.bonds`)."""
         if TIED not in self.history:
-            return np.zeros(len(self), dtype=bool)
+            return np.zeros(self.gap.shape, dtype=bool)
         return np.asarray(self.bonded & (self.history[TIED] > 0))
 
 
@@ -133,8 +133,8 @@ PARTS = tuple(part.name for part in fields(ContactPoints) if part.name != "histo
 
 def concatenate(parts: list[ContactPoints]) -> ContactPoints:
     """Join contact points."""
-    some = [part for part in parts if len(part.key)] or parts[:1]
-    if len(some) == 1:
+    some = [part for part in parts if part.key.size] or parts[:1]
+    if not some[1:]:
         return some[0]
     joined: dict[str, Any] = {
         name: np.concatenate([getattr(part, name) for part in some]) for name in PARTS

@@ -66,8 +66,9 @@ def contact_rows(
     )
     if turn is not None:
         turn(*values)
-    offsets = np.arange(len(contacts) + 1, dtype=np.int32) * np.int32(columns.shape[1])
-    shape = (len(contacts), sides.manifold.n_unknowns)
+    m, width = columns.shape
+    offsets = np.arange(m + 1, dtype=np.int32) * np.int32(width)
+    shape = (m, sides.manifold.n_unknowns)
     # Columns of their own: sorting changes them in place; offsets too where entries are summed.
     others = columns.flatten(), offsets.copy() if sides.repeats else offsets
     patterns = (columns.ravel(), offsets), others

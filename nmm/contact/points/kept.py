@@ -33,7 +33,7 @@ class of_pairs(Generic[T]):
                 *(points.key, points.edge_a, points.edge_b, points.interface),
                 *(points.length, points.spring_factor, points.history["bonded"]),
             )
-            if known is None or not all(map(is_, known[0], now)):
+            if known is None or False in map(is_, known[0], now):
                 known = now, self.make(value, points)
             return known[1]
 

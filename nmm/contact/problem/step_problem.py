@@ -101,7 +101,7 @@ class StepProblem:
         found["limits"] = Limits(*(bound[contacts] for bound in vars(self.limits).values()))
         return found | {"compliant": None if self.compliant is None else self.compliant[contacts]}
 
-    @property
+    @MadeOnce
     def compressed_rows(self) -> tuple[Compressed, Compressed]:
         """Normal and tangent rows as compiled code takes them."""
         return compressed(self.normal_rows), compressed(self.tangent_rows)

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Bools, Floats
-from integration.contraction import some
+from integration.contraction import largest, some
 from nmm.assembly.model import Model
 from nmm.contact.bonds.release import LoadedContacts, given_way, tied_energy
 from nmm.contact.enforcement.base import Enforcement
@@ -186,7 +186,7 @@ class ContactSolver:
             return None
         problem, answer = self.last
         pressed = answer.normal_force < 0
-        return float(problem.normal_stiffness[pressed].max()) if some(pressed) else None
+        return float(largest(problem.normal_stiffness[pressed])) if some(pressed) else None
 
     def _enforced(
         self, transforms: list[Transform], solver: LinearSolver, problem: StepProblem

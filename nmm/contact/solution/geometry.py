@@ -122,4 +122,4 @@ class ContactGeometry:
         normal = contract("mij,mj->mi", after.frames.rotation[body], back)
         if self.bends:
             return self.measured(with_parts(points, normal=normal), after).gap
-        return np.asarray(contract("mi,mi->m", apart_on(surface, points), normal))
+        return contract("mi,mi->m", apart_on(surface, points), normal)

@@ -1,7 +1,9 @@
 """Which effects of a scene have which hook, and the seconds each effect has cost."""
 
+from collections import defaultdict
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from time import perf_counter
 from typing import TypeVar
 
@@ -25,12 +27,12 @@ class Hooks:
     """
 
     effects: dict[str, Effect]
-    seconds: dict[str, float] = field(default_factory=dict)
+    seconds: dict[str, float] = field(default_factory=partial(defaultdict, float))
     hooks: dict[str, list[tuple[str, Effect]]] = field(default_factory=dict)
 
     def spend(self, name: str, seconds: float) -> None:
         """Count seconds for an effect."""
-        self.seconds[name] = self.seconds.get(name, 0.0) + seconds
+        self.seconds[name] += seconds
 
     def having(self, hook: str) -> list[Effect]:
         """Return the effects that define a hook."""
@@ -38,11 +40,10 @@ class Hooks:
 
     def named(self, hook: str) -> list[tuple[str, Effect]]:
         """Return the effects that define a hook, with their names."""
-        known = self.hooks.get(hook)
-        if known is None:
-            known = [(name, one) for name, one in self.effects.items() if defines(one, hook)]
-            self.hooks[hook] = known
-        return known
+        if hook not in self.hooks:
+            named = self.effects.items()
+            self.hooks[hook] = [(name, one) for name, one in named if defines(one, hook)]
+        return self.hooks[hook]
 
     def timed(self, name: str, call: Callable[[], T]) -> T:
         """Return what a call returns, its seconds counted for an effect."""

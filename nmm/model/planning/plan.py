@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from math import isfinite
+from operator import is_
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
@@ -26,13 +27,14 @@ if TYPE_CHECKING:
     from nmm.effects.event import Event
     from nmm.effects.view import View
 
-SHARED = frozenset(
-    (
-        *("inertia", "initial stress", "heat", "contact"),
-        *("supports", "bonded interfaces", "artificial joints"),
-    )
-)
-"""Effects whose energy is counted with that of bodies, contacts or supports."""
+STORES = {
+    "kinetic_energy": ("inertia",),
+    "strain_energy": ("initial stress", "heat"),
+    "contact_energy": ("contact",),
+    "support_energy": ("supports", "bonded interfaces", "artificial joints"),
+}
+"""Effects whose energy is counted with that of bodies, contacts or supports, by columns of the
+history; others have columns to themselves."""
 
 
 @dataclass(frozen=True)
@@ -237,17 +239,26 @@ class Plan(NamedEffects):
         effect = self.effects.get(name)
         return 0.0 if effect is None else effect.energy(state)
 
-    def own_energies(self, state: State) -> dict[str, float]:
-        """Return the energy (J) that each such effect stores, by its column of the history."""
+    def energies(self, state: State) -> dict[str, float]:
+        """Return the energy (J) that effects store, by its columns of the history."""
         return {
-            f"energy:{name.removeprefix(OWN)}": effect.energy(state)
-            for name, effect in self._own_stores
+            column: sum([one.energy(state) for one in effects], start=0.0)
+            for column, effects in self._stores
         }
 
     @cached_property
-    def _own_stores(self) -> list[tuple[str, Effect]]:
-        """Effects that store energy and have a column of it to themselves."""
-        return [(name, one) for name, one in self.named("energy") if name not in SHARED]
+    def _stores(self) -> list[tuple[str, list[Effect]]]:
+        """Effects that store energy, by the columns of it."""
+        shared = {
+            column: [self.effects[name] for name in names if name in self.effects]
+            for column, names in STORES.items()
+        }
+        own = {
+            f"energy:{name.removeprefix(OWN)}": [effect]
+            for name, effect in self.named("energy")
+            if not any(name in names for names in STORES.values())
+        }
+        return [*shared.items(), *own.items()]
 
     @cached_property
     def tellers(self) -> list[tuple[str, Effect]]:
@@ -274,4 +285,4 @@ class Plan(NamedEffects):
 
 
 def _are(some: list[csc_array], others: list[csc_array]) -> bool:
-    return len(some) == len(others) and all(a is b for a, b in zip(some, others, strict=True))
+    return len(some) == len(others) and False not in map(is_, some, others)

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
-from integration.contraction import largest, least
+from integration.contraction import largest, least, summed
 from nmm.assembly.state import State
 from nmm.frozen import with_parts
 from nmm.stepping.reports.totals import Totals
@@ -39,7 +39,7 @@ def tallied(
         gap[acts] = contact.geometry.gaps(contacts.take(acts), before, after, surface)
         ends = -float(least(gap, initial=0.0))
     share, deepest = totals.overlap, totals.deepest
-    if ends > share * np.sqrt(stepper.model.manifold.body_area.min()):
+    if ends > share * np.sqrt(least(stepper.model.manifold.body_area)):
         over = _over_smaller(stepper, contacts, gap)
         at = int(over.argmax())
         if over[at] > share:
@@ -56,15 +56,20 @@ def tallied(
         penetration=max(totals.penetration, overlap),
         overlap=share,
         deepest=deepest,
-        largest={name: max(totals.largest.get(name, 0), n) for name, n in counts.items()},
+        largest=totals.largest if counts == totals.counts else _largest(totals, counts),
         counts=counts,
     )
     return totals, overlap
 
 
+def _largest(totals: Totals, counts: dict[str, int]) -> dict[str, int]:
+    """Return the largest number of contacts in each state so far."""
+    return {name: max(totals.largest.get(name, 0), n) for name, n in counts.items()}
+
+
 def _borne(contacts: "ContactPoints") -> float:
     """Return the sum of the sizes of all forces (N)."""
-    return float(np.abs(contacts.normal_force).sum() + np.abs(contacts.shear_force).sum())
+    return float(summed(np.abs(contacts.normal_force)) + summed(np.abs(contacts.shear_force)))
 
 
 def _over_smaller(stepper: Stepper, contacts: "ContactPoints", gap: Floats) -> Floats:

@@ -4,28 +4,24 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from nmm.assembly.state import State
+from nmm.model.planning.plan import STORES
 from nmm.model.planning.pressures import lifted_energy
 
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
     from nmm.model.planning.plan import Plan
 # Effects whose springs count as supports: those of the scene, glue, and what holds sub-blocks.
-HOLDING = ("supports", "bonded interfaces", "artificial joints")
+HOLDING = STORES["support_energy"]
 # Effects whose energy is that of the solid, beyond that of its strain.
-STRAINING = ("initial stress", "heat")
+STRAINING = STORES["strain_energy"]
 
 
 def stored(plan: "Plan", model: "Model", state: State) -> dict[str, float]:
     """Return the energies (J) of a state by name."""
-    lifted = lifted_energy(plan, model, state)
-    strain = model.strain_energy(state) + lifted
-    return {
-        "kinetic_energy": plan.energy("inertia", state),
-        "strain_energy": strain + sum(plan.energy(name, state) for name in STRAINING),
-        "contact_energy": plan.energy("contact", state),
-        "support_energy": sum(plan.energy(name, state) for name in HOLDING) - lifted,
-        **plan.own_energies(state),
-    }
+    found, lifted = plan.energies(state), lifted_energy(plan, model, state)
+    found["strain_energy"] += model.strain_energy(state) + lifted
+    found["support_energy"] -= lifted
+    return found
 
 
 def untouched(plan: "Plan", model: "Model", state: State) -> dict[str, float]:

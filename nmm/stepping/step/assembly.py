@@ -53,7 +53,7 @@ class Assembly:
         model, plan = self._solved.model, self._solved.plan
         line = Linearisation.linear(model, state) if matter is None else matter
         parts = list(plan.forces(state, end))
-        force = sum(parts, start=np.zeros(len(state.deformation))) - line.force
+        force = sum(parts, start=np.zeros(state.deformation.shape)) - line.force
         among, rests = None, step is None or plan.inertia is None
         if model.manifold.dependent or not rests:
             among = sum((np.abs(part) for part in parts), start=np.abs(line.force))

@@ -1,5 +1,6 @@
 """Seconds that the phases of a run take."""
 
+from collections import defaultdict
 from dataclasses import dataclass
 from time import perf_counter
 
@@ -14,7 +15,7 @@ class Clock:
     """
 
     def __init__(self) -> None:
-        self.seconds: dict[str, float] = {}
+        self.seconds: dict[str, float] = defaultdict(float)
 
     def phase(self, name: str) -> "Phase":
         """Count what is done within for a phase."""
@@ -33,5 +34,4 @@ class Phase:
         self.started = perf_counter()
 
     def __exit__(self, *fault: object) -> None:
-        spent = perf_counter() - self.started
-        self.seconds[self.name] = self.seconds.get(self.name, 0.0) + spent
+        self.seconds[self.name] += perf_counter() - self.started

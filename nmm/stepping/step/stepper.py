@@ -190,10 +190,10 @@ class Stepper:
         """Accept a trial step as the start of the next one; return it with its final contacts."""
         reach, restarts = self._steps.reach(attempt.motion), self._integrator.restarts_at_impact
         self._carried = self._carried.after(attempt, reach, restarts)
-        state, contact, contacts = attempt.state, self.plan.contact, None
-        if contact is not None and attempt.solved is not None:
-            contacts = contact.commit(attempt.solved, state)
-        self.plan.accepted(state)
+        plan, state, contacts = self._current.plan, attempt.state, None
+        if plan.contact is not None and attempt.solved is not None:
+            contacts = plan.contact.commit(attempt.solved, state)
+        plan.accepted(state)
         if self._lay is not None:
             place, increment = self.place(state), attempt.increment
             state = self._relaid(
@@ -210,7 +210,7 @@ class Stepper:
 
     def follow(self, change: "Change", new: Discretisation) -> None:
         """Continue on the ``new`` discretisation after a change."""
-        self._current.discretisation = new
+        self._current.become(new)
         self.reference = change.new.manifold.elements.points
         self._steps.follow(change)
 

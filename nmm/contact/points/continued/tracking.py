@@ -5,8 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from integration.arrays import Bools, Floats, Ints
-from integration.contraction import every
+from integration.arrays import Bools, Floats, Ints, same
 from nmm.contact.detection.contacts import Contacts, FaceContacts
 from nmm.contact.detection.surface import Surface
 from nmm.contact.points.contact_points import ContactPoints
@@ -76,7 +75,7 @@ def continues(old: Contacts | None, new: Contacts) -> bool:
     """Whether search has found the pairs of the last step, corners before edges alone."""
     if old is None or type(old) is not Contacts or type(new) is not Contacts:
         return False
-    return len(old.key) == len(new.key) and bool(every(old.key == new.key))
+    return same(old.key, new.key)
 
 
 def continued(old: ContactPoints, found: Contacts) -> ContactPoints:
@@ -89,7 +88,7 @@ def continued(old: ContactPoints, found: Contacts) -> ContactPoints:
 
 def answered(points: ContactPoints, answer: StepAnswer, once_bonded: Bools) -> ContactPoints:
     """Return the points as an answer leaves them; ``once_bonded`` (m,) had a bond at the start."""
-    parted = once_bonded & points.is_joint & (answer.state == OPEN)
+    parted = once_bonded & points.is_joint & (answer.state == int(OPEN))
     state = np.where(parted, int(BROKEN), answer.state)
     return with_parts(
         points,

@@ -66,9 +66,8 @@ def midpoint_rows(
 
     def turn(normal: Floats, tangent: Floats) -> None:
         # How far apart sides are along tangent and normal: what lines that turn move.
-        levers = tuple(
-            contract("ij,ij->i", apart, way) for way in (clockwise(direction), direction)
-        )
+        along = contract("ij,ij->i", apart, direction)
+        levers = contract("ij,ij->i", apart, clockwise(direction)), along
         factors = (shares.a / stretch).ravel(), (shares.b / stretch).ravel()
         turns = sides.turns(contacts.edge_a), sides.turns(edge)
         bent = side_a.rows.apply(half.deformation), side_b.rows.apply(half.deformation)
