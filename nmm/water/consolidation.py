@@ -12,12 +12,14 @@ stiffness in the limit of short steps. So heads and motion are found together, a
 length are stable.
 """
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
 from scipy.sparse import csc_array
 
-from integration.arrays import Floats
+from integration.arrays import Bools, Floats
+from integration.contraction import some
 from nmm import capacity
 from nmm.assembly.state import State
 from nmm.diffusion.course import FieldAt
@@ -25,6 +27,7 @@ from nmm.diffusion.problem import step_between
 from nmm.effects.base import Instant, Setup
 from nmm.errors import Fault, SceneError
 from nmm.frozen import with_parts
+from nmm.geometry.tessellation.cover_types import piece_glue
 from nmm.water.pore_water import PoreWater
 
 if TYPE_CHECKING:
@@ -135,19 +138,39 @@ def _refuse_uncoupled(setup: Setup) -> None:
     Raises
     ------
     SceneError
-        Steps of the field differ from those of the run; supports are imposed by tractions; there
-        are too many unknowns for a full matrix.
+        Steps of the field differ from those of the run; supports or glue are imposed by tractions;
+        there are too many unknowns for a full matrix.
     """
     place = setup.scene.source.place("seepage", "coupled")
     asked, manifold = setup.formulation.diffusion, setup.model.manifold
     if asked is not None and (asked.theta != 1 or asked.step is not None):
         expected = "steps of the field that are those of the run, with theta = 1"
         raise SceneError(Fault(place, "[diffusion] theta or step", expected, "remove [diffusion]"))
-    mesh = len(manifold.element_body) != manifold.n_bodies
-    method = setup.formulation.supports.method
-    if mesh and method in ("auto", "nitsche") and setup.scene.supports:
-        expected = "supports that need no traction, which the pressure is a part of"
-        remedy = '[supports] method = "penalty" or "lagrange" of the formulation'
-        raise SceneError(Fault(place, f'supports by "{method}"', expected, remedy))
+    for table, method, other in _by_tractions(setup):
+        expected = f"{table} that need no traction, which the pressure is a part of"
+        remedy = f"[{table}] {other} of the formulation"
+        raise SceneError(Fault(place, f'{table} by "{method}"', expected, remedy))
     count = manifold.n_unknowns
     capacity.refuse(place, f"{count} unknowns", ENTRY * count**2, "take larger cells")
+
+
+def _by_tractions(setup: Setup) -> Iterator[tuple[str, str, str]]:
+    """Yield tables whose method may take tractions of the blocks; the method; another to take."""
+    manifold, asked = setup.model.manifold, setup.formulation
+    mesh = len(manifold.element_body) != manifold.n_bodies
+    method = asked.supports.method
+    if mesh and method in ("auto", "nitsche") and setup.scene.supports:
+        yield "supports", method, 'method = "penalty" or "lagrange"'
+    method, tied = asked.glue.method, setup.scene.contact is None
+    if tied and method in ("auto", "nitsche") and some(_glued(setup)):
+        yield "glue", method, 'method = "spring" or "lagrange"'
+    pieces = piece_glue(asked.cover)
+    if pieces is not None and pieces.method == "nitsche":
+        yield "cover.options", "nitsche", 'glue = "springs"'
+
+
+def _glued(setup: Setup) -> Bools:
+    """Return which edges (j,) that blocks share are glued."""
+    from nmm.constraints.shared_edges import bonded_stiffness, shared_edges
+
+    return bonded_stiffness(setup, shared_edges(setup.model))[2]

@@ -1,0 +1,133 @@
+"""Two layers of soil that are glued together, and squeezed at once: Terzaghi's problem of both."""
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+import nmm
+from nmm.errors import SceneError
+
+LOAD, TIME, STEPS = 1e5, 2000.0, 60
+LOW, TOP = 3.0, 5.0  # heights of the face between the layers and of the drained top (m)
+MODULI, MOBILITIES = (5e6, 2e7), (2.5e-11, 1e-10)  # of the lower and the upper one (Pa, m4/(N s))
+
+
+def settled():
+    """Settlement (m) by finite volumes of the pressure and the exponential of their matrix."""
+    faces = np.r_[np.linspace(0, LOW, 151), np.linspace(LOW, TOP, 101)[1:]]
+    size, upper = np.diff(faces), (faces[1:] > LOW).astype(int)
+    modulus, mobility = np.array(MODULI)[upper], np.array(MOBILITIES)[upper]
+    half = size / 2 / mobility
+    links = 1 / np.r_[half[:-1] + half[1:], half[-1]]
+    flow = np.diag(-np.r_[0, links[:-1]] - links) + np.diag(links[:-1], 1) + np.diag(links[:-1], -1)
+    pressure = expm(flow * TIME / (size / modulus)[:, None]) @ np.full(len(size), LOAD)
+    return float(((LOAD - pressure) / modulus * size).sum())
+
+
+def layers(formulation, x=0.0, y=0.0):
+    """Return the scene with its lower left corner at (x, y)."""
+    left, right = [[x, y], [x, y + TOP]], [[x + 1, y], [x + 1, y + TOP]]
+    middle = [[x + 1, y + LOW], [x, y + LOW]]
+    top = [left[1], right[1]]
+    soils = "".join(
+        f"[materials.{name}]\nyoung_modulus = {modulus}\npoisson_ratio = 0.0\n"
+        f"hydraulic_conductivity = {mobility}\nspecific_storage = 1e-12\n"
+        for name, modulus, mobility in zip(("low", "high"), MODULI, MOBILITIES, strict=True)
+    )
+    return f"""
+plane = "strain"
+{soils}
+[interfaces.face]
+friction_angle = 0.5
+bonded = true
+leakage = "perfect"
+[[blocks]]
+name = "low"
+material = "low"
+vertices = {[left[0], right[0], *middle]}
+[[blocks]]
+name = "high"
+material = "high"
+vertices = {[*middle[::-1], right[1], left[1]]}
+[seepage]
+transient = true
+coupled = true
+unit_weight = 1.0
+initial = {y + TOP}
+duration = {TIME}
+[[heads]]
+name = "top"
+segment = {top}
+head = {y + TOP}
+[[loads]]
+name = "fill"
+kind = "edge"
+segment = {top}
+traction = [0, {-LOAD}]
+[[supports]]
+name = "base"
+segment = {[left[0], right[0]]}
+fix = ["y"]
+[[supports]]
+name = "left"
+segment = {left}
+fix = ["x"]
+[[supports]]
+name = "right"
+segment = {right}
+fix = ["x"]
+[[monitors]]
+name = "top"
+point = {[x + 0.5, y + TOP]}
+[loading]
+scaled = []
+[formulation.loading]
+increment = {1 / STEPS}
+[formulation.supports]
+method = "penalty"
+{formulation}
+"""
+
+
+TRIANGLES = '[formulation.cover]\ntype = "triangles"\nsize = 0.34\nangle = 0.4\n'
+QUADS = '[formulation.cover]\ntype = "quads"\nsize = 0.3\ndegree = 2\n'
+
+
+@pytest.mark.parametrize(
+    ("cover", "method", "place"),
+    [
+        (TRIANGLES, "lagrange", (0, 0)),
+        (TRIANGLES, "spring", (1e5, -3e4)),
+        (QUADS, "spring", (0, 0)),
+    ],
+)
+def test_two_layers_settle_as_finite_volumes_say(cover, method, place):
+    text = layers(f'{cover}[formulation.glue]\nmethod = "{method}"\n', *place)
+    run = nmm.run(nmm.parse_scene(text))
+    assert run.summary.status == "converged"
+    # Of order 1 in the step; the base is still undrained.
+    down = -run.history["monitor:top:uy"][-1]
+    assert down == pytest.approx(settled(), rel=4e-3)
+
+
+@pytest.mark.parametrize(
+    ("ties", "said"),
+    [
+        ("[formulation.glue]\n", 'glue by "auto"'),
+        ('[formulation.glue]\nmethod = "nitsche"\n', 'glue by "nitsche"'),
+    ],
+)
+def test_glue_whose_tractions_the_pressure_is_a_part_of_is_refused_by_line(ties, said):
+    """Without their pressure two blocks of one soil settled by 5 % more than one of it."""
+    with pytest.raises(SceneError, match=r"scene:\d+: seepage\.coupled") as caught:
+        nmm.run(nmm.parse_scene(layers(TRIANGLES + ties), "scene"))
+    assert said in str(caught.value)
+
+
+def test_pieces_of_a_block_that_are_glued_so_are_refused_by_line():
+    """They settled by three times as much as the whole block."""
+    pieces = '[formulation.cover]\ntype = "sub_blocks"\nsize = 0.5\n'
+    options = '[formulation.cover.options]\nglue = "nitsche"\n'
+    text = layers(pieces + options + '[formulation.glue]\nmethod = "spring"\n')
+    with pytest.raises(SceneError, match=r"scene:\d+: seepage\.coupled.*cover\.options"):
+        nmm.run(nmm.parse_scene(text, "scene"))
