@@ -12,7 +12,15 @@ import typer
 from nmm.cli import motion_verbs, result_verbs, scene_verbs, study_verbs, verification_verbs
 from nmm.cli.result_verbs import draw, paraview_files
 from nmm.cli.scene_verbs import AllowCode, FormulationFile, allowed, read_formulation
-from nmm.cli.terminal import console, faults_told, progress_bar, tell_files, tell_next, tell_run
+from nmm.cli.terminal import (
+    console,
+    faults_told,
+    in_shell,
+    progress_bar,
+    tell_files,
+    tell_next,
+    tell_run,
+)
 from nmm.errors import NmmError
 
 if TYPE_CHECKING:
@@ -177,9 +185,10 @@ def _stopped_told(out: Path) -> Iterator[None]:
     try:
         yield
     except KeyboardInterrupt:
-        typer.secho(f"stopped; what was written can be drawn: nmm plot {out}", err=True)
+        typer.secho(f"stopped; what was written can be drawn: nmm plot {in_shell(out)}", err=True)
         if (out / "checkpoint.npz").exists():
-            typer.secho(f"it goes on from its last checkpoint: nmm run --resume {out}", err=True)
+            again = f"nmm run --resume {in_shell(out)}"
+            typer.secho(f"it goes on from its last checkpoint: {again}", err=True)
         raise typer.Exit(130) from None
 
 
@@ -193,7 +202,7 @@ def _tell_done(scene: "Scene", done: "Run", out: Path, quiet: bool, pictures: bo
     if not quiet:
         console().print(render(done.summary))
         tell_files([out, *files])
-        tell_next(f"nmm plot {out}", f"nmm export {out} for ParaView")
+        tell_next(f"nmm plot {in_shell(out)}", f"nmm export {in_shell(out)} for ParaView")
     if code := EXIT_CODES.get(done.summary.status, 2):
         raise typer.Exit(code)
 

@@ -58,13 +58,14 @@ def cost(
         from nmm.study.cost.levels import levels
         from nmm.study.cost.report import write_cost_report
 
-        said = ([f"{SIZE}={sizes}"] if sizes else []) + (vary or [])
+        varied: dict[str, list[object]] = {SIZE: [*_sizes(sizes)]} if sizes else {}
+        varied |= dict(_varied(text) for text in vary or [])
         with progress_bar(quiet) as progress:
             study = cost_study(
                 nmm.read_scene(scene),
                 formulations_of(scene, [*(formulations or []), *(more or [])])
                 | yardsticks(_listed(yardstick)),
-                dict(_varied(text) for text in said),
+                varied,
                 quantity,
                 repeats,
                 progress,
@@ -115,6 +116,18 @@ def calibrate(
 
 def _listed(text: str | None) -> list[str]:
     return [name.strip() for name in (text or "").split(",") if name.strip()]
+
+
+def _sizes(text: str) -> list[float]:
+    from nmm.errors import NmmError
+
+    try:
+        sizes = [float(item) for item in text.split(",")]
+    except ValueError:
+        sizes = []
+    if not sizes or not all(size > 0 for size in sizes):
+        raise NmmError(f"--sizes {text}: expected lengths in m, with commas: --sizes 0.2,0.1")
+    return sizes
 
 
 def _varied(text: str) -> tuple[str, list[object]]:

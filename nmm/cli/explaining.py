@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from nmm.cli.terminal import console, tell_next
+from nmm.cli.terminal import console, in_shell, tell_next
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -43,7 +43,7 @@ def told(place: Path, given: "Formulation | None", cost: bool) -> None:
     out.print(str(prepared.storage), highlight=False)
     if cost:
         _tell_cost(prepared)
-    tell_next(f"nmm run {place}")
+    tell_next(f"nmm run {in_shell(place)}")
 
 
 def _effects(scene: "Scene") -> "Table":

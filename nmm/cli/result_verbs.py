@@ -49,6 +49,8 @@ def plot(
         tell_files(drawn)
         if not drawn:
             missed.append(f"{run}: nothing to draw: expected frames or a history: run it again")
+        elif not len(stored.frames):
+            missed.append(f"{run}: no frame: expected one for pictures of blocks: run it again")
     _tell_missed(missed)
 
 
@@ -64,7 +66,10 @@ def export(
 
     missed: list[str] = []
     with faults_told(), allowed(run / "scene.toml", allow_code):
-        tell_files(paraview_files(read_run(run), run, missed.append))
+        stored = read_run(run)
+        if not len(stored.frames):
+            raise NmmError(f"{run}: nothing to export: expected frames: run it again")
+        tell_files(paraview_files(stored, run, missed.append))
     _tell_missed(missed)
 
 
@@ -122,8 +127,10 @@ def paraview_files(
 
 
 def _frame_exists(frame: int | None, count: int) -> None:
-    if frame is not None and not -count <= frame < count:
-        raise NmmError(f"--frame {frame}: expected {-count} to {count - 1}: the run has {count}")
+    if frame is None or -count <= frame < count:
+        return
+    expected = f"{-count} to {count - 1}" if count else "none"
+    raise NmmError(f"--frame {frame}: expected {expected}: the run has {count}")
 
 
 def register(app: typer.Typer) -> None:

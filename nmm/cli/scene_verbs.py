@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, TypeVar
 
 import typer
 
-from nmm.cli.terminal import console, faults_told, tell_faults, tell_next
+from nmm.cli.terminal import console, faults_told, in_shell, tell_faults, tell_next
 
 if TYPE_CHECKING:
     from nmm.formulation import Formulation
@@ -40,7 +40,7 @@ def check(
         typer.echo(f"{len(faults)} fault{'s' * (len(faults) > 1)}", err=True)
         raise typer.Exit(1)
     typer.secho("no faults", fg="green")
-    tell_next(f"nmm explain {scene}", f"nmm run {scene}")
+    tell_next(f"nmm explain {in_shell(scene)}", f"nmm run {in_shell(scene)}")
 
 
 def explain(
@@ -57,7 +57,9 @@ def explain(
 
 
 def new(
-    name: Annotated[str, typer.Argument(help="Name of the scene; NAME.toml is written.")],
+    name: Annotated[
+        str, typer.Argument(help="Name of the scene; NAME.toml is written.", metavar="NAME")
+    ],
 ) -> None:
     """Write a commented scene to start from."""
     from nmm.errors import NmmError
@@ -72,7 +74,7 @@ def new(
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(starter(), encoding="utf-8")
     typer.echo(path)
-    tell_next(f"nmm check {path}", f"nmm run {path}")
+    tell_next(f"nmm check {in_shell(path)}", f"nmm run {in_shell(path)}")
 
 
 def bound(
@@ -105,7 +107,8 @@ def _parts(words: list[str], modules: list[str]) -> None:
         raise NmmError(f"--allow-code: {why}: expected a module beside you or installed") from fault
     kept = [one for one in found if all(word.lower() in str(one).lower() for word in words)]
     if not kept:
-        raise NmmError(f"nmm parts: {' '.join(words)}: expected words of a part: leave some out")
+        said = " ".join(words)
+        raise NmmError(f"{said}: no part has these words: expected words of a part: leave some out")
     columns = [(one.kind, one.name, one.origin, one.module) for one in kept]
     widths = [max(map(len, column)) for column in zip(*columns, strict=True)]
     for cells, one in zip(columns, kept, strict=True):
@@ -175,7 +178,7 @@ def _bound(place: Path, formulation: Path | None) -> None:
             f"mechanism: block {name} moves most: {how} (friction that dilates)"
         )
     out.print(text, highlight=False, markup=False)
-    tell_next(f"nmm run {place}")
+    tell_next(f"nmm run {in_shell(place)}")
 
 
 def _faults(place: Path, formulation: Path | None) -> list[str]:

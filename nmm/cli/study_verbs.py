@@ -16,7 +16,7 @@ from nmm.cli.study_arguments import (
     formulations_of,
     one_thread_only,
 )
-from nmm.cli.terminal import faults_told, progress_bar, tell_files
+from nmm.cli.terminal import faults_told, in_shell, progress_bar, tell_files
 
 if TYPE_CHECKING:
     from nmm.scene import Scene
@@ -135,7 +135,9 @@ def study(
                     ),
                 )
         except KeyboardInterrupt:
-            typer.secho(f"stopped; the same command continues it: nmm study {plan}", err=True)
+            typer.secho(
+                f"stopped; the same command continues it: nmm study {in_shell(plan)}", err=True
+            )
             raise typer.Exit(130) from None
         files = write_sweep(done, folder)
         failed = sum(not one.valid for one in done.records)

@@ -1,5 +1,6 @@
 """What the command line prints: verdicts, faults, files, progress."""
 
+import shlex
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -100,6 +101,11 @@ def tell_files(files: Sequence[Path]) -> None:
     """Print every path written, one a line."""
     for file in files:
         typer.echo(file)
+
+
+def in_shell(place: Path) -> str:
+    """Return a path as a shell reads it: names with blanks are quoted."""
+    return shlex.quote(str(place))
 
 
 def tell_next(*commands: str) -> None:

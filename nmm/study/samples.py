@@ -7,6 +7,7 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from integration.polygons import Polygons
+from nmm.errors import NmmError
 from nmm.outputs.stresses import von_mises
 
 if TYPE_CHECKING:
@@ -81,10 +82,21 @@ def elements_at(polygons: Polygons, points: Floats) -> Ints:
 
 
 def fields(run: "Run", points: Floats) -> SampledFields:
-    """Evaluate a run's last state at reference points (m, 2), in global axes."""
-    manifold = run.manifold
+    """Evaluate a run's last state at reference points (m, 2) of its scene, in global axes.
+
+    Raises
+    ------
+    NmmError
+        When no point lies in a block.
+    """
+    manifold, points = run.manifold, points - run.origin
     elements = elements_at(manifold.elements, points)
     there = elements >= 0
+    if not there.any():
+        raise NmmError(
+            "no block lies at the points that are compared: expected a scene of the same case: "
+            "leave it out"
+        )
     displacement, stress = np.full((len(points), 2), np.nan), np.full((len(points), 3), np.nan)
     displacement[there] = _displacement(run, elements[there], points[there])
     stress[there] = _stress(run, elements[there], points[there])

@@ -1,5 +1,6 @@
 """The figure of a comparison: fields, cracks and forces side by side, and a curve of each run."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,7 @@ def draw(study: Comparison, path: Path) -> None:
     from nmm.results.viewing.grids import contact_vectors
 
     made, image = study.made, study.raster.image
-    x, y = curve_columns(made[0][1])
+    x, y = curve_columns([run for _, run, _ in made])
     shown = [
         DrawnRun(
             one.name,
@@ -27,8 +28,8 @@ def draw(study: Comparison, path: Path) -> None:
             last_frame(done).contact_position,
             contact_vectors(last_frame(done)),
             cracks(done),
-            done.history.get(x, np.empty(0)),
-            done.history.get(y, np.empty(0)),
+            done.history[x],
+            done.history[y],
         )
         for one, done, values in made
     ]
@@ -55,10 +56,14 @@ def last_frame(run: Run) -> Frame:
     return next((one for one in reversed(run.frames) if one.stage != "failure"), run.frames[-1])
 
 
-def curve_columns(run: Run) -> tuple[str, str]:
-    """Return what grows in a run, and the monitor that moved most, else the elastic energy."""
-    known = run.history
-    clock = "load_factor" if np.ptp(known.get("load_factor", np.zeros(1))) > 0 else "time"
-    moved = [name for name in known if name.startswith("monitor:")]
+def curve_columns(runs: Sequence[Run]) -> tuple[str, str]:
+    """Return what grows in the first run, and the monitor of all that moved most in it.
+
+    Where scenes of one case have no monitor in common it is the elastic energy.
+    """
+    known = runs[0].history
+    clock = "load_factor" if np.ptp(known["load_factor"]) > 0 else "time"
+    common = set(known).intersection(*(one.history for one in runs))
+    moved = [name for name in known if name in common and name.startswith("monitor:")]
     most = max(moved, key=lambda name: float(np.nanmax(np.abs(known[name]))), default="")
     return clock, most or "strain_energy"

@@ -327,5 +327,31 @@ def test_plot_refuses_what_a_run_does_not_have(options, message, tmp_path, write
     assert message in result.stderr
 
 
+def test_a_run_without_frames_draws_its_history_alone_and_says_so(tmp_path, write_run):
+    write_run(RunFolder(tmp_path / "run"), blocks=10, frames=2)
+    for frame in (tmp_path / "run/frames").iterdir():
+        frame.unlink()
+    drawn, written = call("plot", tmp_path / "run"), call("export", tmp_path / "run")
+    assert (drawn.exit_code, written.exit_code) == (1, 1)
+    assert "history.png" in drawn.stdout
+    assert "no frame: expected one for pictures of blocks: run it again" in drawn.stderr
+    assert "nothing to export: expected frames: run it again" in written.stderr
+    assert not (tmp_path / "run/paraview").exists()
+    message = "--frame 0: expected none: the run has 0"
+    assert message in call("plot", tmp_path / "run", "--frame", 0).stderr
+
+
+def test_what_to_try_next_can_be_typed_where_a_name_has_blanks(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert "nmm check 'a slope.toml'   or: nmm run 'a slope.toml'" in call("new", "a slope").stdout
+
+
+@pytest.mark.parametrize("sizes", ["a,b", "0.2,", "0.2,-0.1"])
+def test_sizes_that_are_no_lengths_are_refused_before_anything_runs(sizes, scene):
+    result = call("cost", scene, f"--sizes={sizes}")
+    assert result.exit_code == 1
+    assert f"--sizes {sizes}: expected lengths in m, with commas" in result.stderr
+
+
 def test_the_demo_scene_is_found():
     assert example("kitoh_beam/kitoh_130.toml").is_file()

@@ -8,9 +8,11 @@ import nmm
 from integration.polygons import Polygons
 from nmm.cli.app import app
 from nmm.study.cases.variants import StudyCase
+from nmm.study.comparison.drawing import curve_columns
 from nmm.study.comparison.page import comparison_page, write_comparison
 from nmm.study.comparison.runs import compare_cases
 from nmm.study.samples import elements_at, fields, raster
+from nmm.verification import text
 
 # With it a bar held along its end in x is under uniform tension, which every formulation holds
 # exactly: sxx = 1e-3.
@@ -62,6 +64,16 @@ def test_fields_of_uniform_tension_are_exact(bar, name):
     assert np.isnan(found.stress[2]).all()
 
 
+def test_fields_of_a_bar_far_from_the_origin_are_those_beside_it(bar, pulled):
+    # Runs count from an origin of their own there.
+    far = pulled.replace("[0, 0]", "[50, 0]").replace("[0, 1]", "[50, 1]")
+    far = nmm.scene.parse_scene(far.replace("[4, ", "[54, "))
+    points = np.array([[0.3, 0.2], [3.1, 0.9], [9, 9]])
+    here, there = fields(nmm.run(bar), points), fields(nmm.run(far), points + np.array([50, 0]))
+    np.testing.assert_allclose(there.displacement, here.displacement, rtol=1e-9, atol=1e-15)
+    np.testing.assert_allclose(there.stress, here.stress, rtol=1e-9, atol=1e-15)
+
+
 def test_the_page_holds_table_differences_and_faults(bar, tmp_path):
     broken = nmm.Formulation.model_validate({"cover": {"functions": "none_such"}})
     cases = [StudyCase(name, bar, kind) for name, kind in {**KINDS, "broken": broken}.items()]
@@ -93,8 +105,8 @@ def test_scenes_of_one_case_are_columns_beside_each_other(tmp_path, bar_text):
     """Half of the load beside all of it: displacements differ by half, energies by a quarter."""
     whole, half = tmp_path / "whole.toml", tmp_path / "half.toml"
     for path, pull in ((whole, 1e-3), (half, 5e-4)):
-        text = bar_text(fix='["x"]', traction=f"[{pull}, 0]", more=CORNER)
-        path.write_text(f'{text}\n[formulation]\ntitle = "{path.stem}"\n')
+        written = bar_text(fix='["x"]', traction=f"[{pull}, 0]", more=CORNER)
+        path.write_text(f'{written}\n[formulation]\ntitle = "{path.stem}"\n')
     words = ["compare", whole, "--beside", half, "--no-memory", "--out", tmp_path]
     result = CliRunner().invoke(app, [str(word) for word in words])
     assert result.exit_code == 0, result.output
@@ -102,3 +114,20 @@ def test_scenes_of_one_case_are_columns_beside_each_other(tmp_path, bar_text):
     energy = next(x for x in result.stdout.splitlines() if x.startswith("| elastic energy"))
     one, other = (float(cell) for cell in energy.split("|")[2:4])
     assert other == pytest.approx(one / 4, rel=1e-3)
+
+
+def test_scenes_without_a_monitor_in_common_are_compared_by_their_energy(tmp_path, bar_text):
+    one, other = tmp_path / "one.toml", tmp_path / "other.toml"
+    one.write_text(bar_text(more='[[monitors]]\nname = "end"\npoint = [1, 0.5]\n'))
+    other.write_text(bar_text() + '[formulation]\ntitle = "other"\n')
+    runs = [nmm.run(nmm.read_scene(place)) for place in (one, other)]
+    assert curve_columns(runs)[1] == "strain_energy"
+    assert curve_columns(runs[:1])[1].startswith("monitor:end:")
+
+
+def test_a_scene_that_lies_elsewhere_is_a_fault_of_the_page(bar):
+    held = [text.box("far", (50, 0), (1, 1)), text.fixed_edge("left", ((50, 0), (50, 1)))]
+    far = nmm.scene.parse_scene(text.scene('plane = "stress"', [text.material("rock"), *held]))
+    cases = [StudyCase(name, one, KINDS["DDA"]) for name, one in (("here", bar), ("far", far))]
+    page = comparison_page(compare_cases(cases, memory=False), "compare.png")
+    assert "- far: no block lies at the points that are compared: expected a scene of" in page
