@@ -15,7 +15,7 @@ from nmm.constraints.imposition import IMPOSITIONS
 from nmm.contact.enforcement.base import ENFORCEMENTS
 from nmm.controls.base import CONTROLS
 from nmm.fracture.criteria.base import CRITERIA
-from nmm.geometry.tessellation.cover_types import COVER_TYPES
+from nmm.geometry.tessellation.cover_types import COVER_TYPES, LOCAL_FUNCTIONS
 from nmm.integrators.base import INTEGRATORS
 from nmm.interfaces.base import INTERFACE_LAWS
 from nmm.interfaces.bond_slip import BOND_LAWS
@@ -29,6 +29,7 @@ from nmm.trust import import_allowed
 
 REGISTRIES: tuple[Registry[Any], ...] = (
     COVER_TYPES,
+    LOCAL_FUNCTIONS,
     MATERIAL_LAWS,
     INTERFACE_LAWS,
     BOND_LAWS,

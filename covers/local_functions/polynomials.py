@@ -154,10 +154,3 @@ class Kinds:
     def each(self, of: Callable[[LocalFunctions], Any]) -> Any:
         """Return an array (C,) of a property of the functions of each physical cover."""
         return np.array([of(item) for item in self.functions])[self.which]
-
-
-FUNCTIONS: dict[str, type[LocalFunctions]] = {
-    "monomials": Monomials,
-    "rigid_strain": RigidStrain,
-    "rigid": Rigid,
-}

@@ -156,12 +156,10 @@ def _control(part: Any) -> None:
 
 
 def _cover(part: Any) -> None:
-    from covers.local_functions.polynomials import FUNCTIONS
-    from nmm.geometry.tessellation.cover_types import COVER_TYPES, block_cover
+    from nmm.geometry.tessellation.cover_types import COVER_TYPES, LOCAL_FUNCTIONS, block_cover
     from nmm.model.manifolds.several_meshes import net_class
 
-    _known("functions", part.functions, [*FUNCTIONS])
-    if part.degree is not None or FUNCTIONS[part.functions].any_degree:
+    if part.degree is not None or LOCAL_FUNCTIONS.load(part.functions).any_degree:
         from nmm.model.manifolds.covering import local_functions
 
         local_functions(part)

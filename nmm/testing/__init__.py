@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from nmm.testing.laws.interfaces import check_interface_law as check_interface_law
     from nmm.testing.laws.materials import check_law as check_law
     from nmm.testing.laws.strengths import check_strength as check_strength
+    from nmm.testing.local_functions import check_local_functions as check_local_functions
     from nmm.testing.outputs import check_output as check_output
     from nmm.testing.solvers import check_solver as check_solver
 
@@ -39,6 +40,7 @@ _HOME = {
     "check_integrator": "integrators",
     "check_interface_law": "laws.interfaces",
     "check_law": "laws.materials",
+    "check_local_functions": "local_functions",
     "check_moved_effect": "effects.moved",
     "check_output": "outputs",
     "check_smooth_enforcement": "enforcements",

@@ -1,7 +1,8 @@
-"""What ``[cover] type`` names: meshes of patches, or blocks that have a cover each."""
+"""What ``[cover]`` names: meshes of patches, or blocks with a cover each, and local functions."""
 
 from typing import TYPE_CHECKING
 
+from covers.local_functions.polynomials import LocalFunctions
 from covers.mathematical.base import CoverType
 from covers.mathematical.registry import COVERS
 from nmm.geometry.tessellation.block_cover import BlockCover, PieceGlue
@@ -16,6 +17,16 @@ BLOCKS = {
 }
 COVER_TYPES = Registry[type[CoverType]]("cover", CoverType, BLOCKS | COVERS)
 """Covers by name, or a user's own."""
+LOCAL_FUNCTIONS = Registry[type[LocalFunctions]](
+    "local functions",
+    LocalFunctions,
+    {
+        "monomials": "covers.local_functions.polynomials:Monomials",
+        "rigid_strain": "covers.local_functions.polynomials:RigidStrain",
+        "rigid": "covers.local_functions.polynomials:Rigid",
+    },
+)
+"""Local functions of covers by name, or a user's own."""
 
 
 def block_cover(cover: "CoverTable") -> BlockCover | None:

@@ -8,11 +8,11 @@ import numpy as np
 from covers.approximation.block_manifold import block_manifold
 from covers.approximation.manifold import Manifold
 from covers.approximation.uncut import uncut
-from covers.local_functions.polynomials import FUNCTIONS, LocalFunctions
+from covers.local_functions.polynomials import LocalFunctions
 from integration.arrays import Floats
 from nmm.errors import FormulationError
 from nmm.geometry.tessellation.block_cover import WholeBlocks
-from nmm.geometry.tessellation.cover_types import block_cover
+from nmm.geometry.tessellation.cover_types import LOCAL_FUNCTIONS, block_cover
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -98,11 +98,7 @@ def cover_regions(
 
 def local_functions(cover: "CoverTable") -> LocalFunctions:
     """Return the local functions that ``[cover]`` names."""
-    functions = FUNCTIONS.get(cover.functions)
-    if functions is None:
-        raise FormulationError(
-            f"[cover] functions: {cover.functions}: expected one of {', '.join(FUNCTIONS)}"
-        )
+    functions = LOCAL_FUNCTIONS.load(cover.functions)
     if functions.any_degree and cover.degree is None:
         raise FormulationError(
             f'[cover] degree: not given: expected 0 to 3 with functions = "{cover.functions}": add '

@@ -130,7 +130,7 @@ class CoverTable(PartTable):
     )
     functions: PartName = Field(
         default="rigid_strain",
-        description='"rigid_strain", "rigid" or "monomials"; meshes take monomials',
+        description=f'"rigid_strain", "rigid", "monomials" {OWN}; meshes take monomials',
         examples=["monomials"],
     )
     degree: Count | None = Field(

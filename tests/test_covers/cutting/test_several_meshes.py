@@ -10,7 +10,7 @@ import pytest
 from covers.approximation.mesh_manifold import mesh_manifold
 from covers.cutting.cut import cut
 from covers.cutting.several_meshes import joined_cover, joined_cut
-from covers.local_functions.polynomials import FUNCTIONS
+from covers.local_functions.polynomials import Monomials
 from covers.mathematical.base import Cover
 from covers.mathematical.quads import Quads
 from covers.mathematical.triangles import Triangles
@@ -37,7 +37,7 @@ def joined(kind, degree=1):
     ]
     cuts = [cut(net, BLOCKS.take(own)) for net, own in zip(nets, MEMBERS, strict=True)]
     cover, pieces = joined_cover(nets), joined_cut(nets, cuts, MEMBERS)
-    return nets, cuts, pieces, mesh_manifold(cover, pieces, FUNCTIONS["monomials"](degree))
+    return nets, cuts, pieces, mesh_manifold(cover, pieces, Monomials(degree))
 
 
 @pytest.mark.parametrize("kind", [Triangles, Quads])
@@ -60,7 +60,7 @@ def test_each_body_has_the_fields_of_its_own_net(kind, degree):
     nets, cuts, _, manifold = joined(kind, degree)
     first = 0
     for net, part in zip(nets, cuts, strict=True):
-        alone = mesh_manifold(net, part, FUNCTIONS["monomials"](degree))
+        alone = mesh_manifold(net, part, Monomials(degree))
         count = np.arange(len(part.elements))
         where = part.elements.centroids
         there, here = manifold.rows(first + count, where), alone.rows(count, where)
@@ -70,7 +70,7 @@ def test_each_body_has_the_fields_of_its_own_net(kind, degree):
         assert np.ptp((there.unknowns[:, :width] - here.unknowns)[here.values.any(axis=1)]) == 0
         first += len(count)
     assert manifold.n_unknowns == sum(
-        mesh_manifold(net, part, FUNCTIONS["monomials"](degree)).n_unknowns
+        mesh_manifold(net, part, Monomials(degree)).n_unknowns
         for net, part in zip(nets, cuts, strict=True)
     )
 

@@ -5,10 +5,11 @@ from functools import cached_property
 import numpy as np
 import pytest
 
-from covers.local_functions.polynomials import FUNCTIONS, LocalFunctions
+from covers.local_functions.polynomials import LocalFunctions
 from integration.arrays import Floats
 from nmm.errors import FormulationError
 from nmm.formulation import parse_formulation
+from nmm.geometry.tessellation.cover_types import LOCAL_FUNCTIONS
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
 from nmm.scene.read import parse_scene
@@ -62,8 +63,8 @@ class Plain(LocalFunctions):
 
 @pytest.fixture(autouse=True)
 def _own_functions(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(FUNCTIONS, "mixed", Mixed)
-    monkeypatch.setitem(FUNCTIONS, "plain", Plain)
+    monkeypatch.setitem(LOCAL_FUNCTIONS.table, "mixed", f"{__name__}:Mixed")
+    monkeypatch.setitem(LOCAL_FUNCTIONS.table, "plain", f"{__name__}:Plain")
 
 
 def corner(functions: str, degree: str = "degree = 1\n") -> tuple[Floats, list[str]]:
