@@ -73,8 +73,9 @@ THRESHOLDS: dict[str, Threshold] = {
         "forces on it, or 1e-3 of the largest size",
         1e-6,
         1e-3,
-        "statics with contact that were solved, of bodies that no multipliers hold; "
-        "`[loading.control]`, of all bodies together",
+        "statics that were solved, of bodies that no multipliers hold (it only warns of forces "
+        "below the rounding of a place times what holds it); `[loading.control]`, of all bodies "
+        "together",
     ),
     "field_imbalance": Threshold(
         "heat or water that was taken up and is not stored, over all that came and went",

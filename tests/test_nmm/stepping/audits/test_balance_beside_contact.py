@@ -1,4 +1,4 @@
-"""Forces on every body where statics with contact ends, asked of what was found."""
+"""Forces on every body where statics ends, asked of what was found."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -10,6 +10,8 @@ import pytest
 import nmm
 from nmm.contact.solution import driver
 from nmm.scene import parse_scene
+from nmm.stepping.step.equations import Equations
+from nmm.stepping.step.linear_system import LinearSolution, LinearSystem
 from nmm.verification import text
 
 STACK = text.scene(
@@ -110,3 +112,51 @@ def test_a_body_that_slid_far_under_a_tiny_load_is_still_asked(monkeypatch) -> N
     run = nmm.run(parse_scene(SLID))
     # Weight and reaction, friction of 30 degrees and pull.
     assert run.summary.audits["force_balance"] == pytest.approx(0.01 * np.sqrt(0.75) / 2, rel=0.02)
+
+
+# A column of 2 x 1 m on a foot that springs hold, without contact.
+COLUMN = text.scene(
+    'plane = "stress"\n[gravity]\n',
+    [
+        text.material("rock"),
+        text.box("column", (0, 0), (1, 2)),
+        text.fixed_edge("foot", [[0, 0], [1, 0]]),
+        '[formulation.supports]\nmethod = "penalty"\n',
+    ],
+)
+
+
+def test_statics_without_contact_are_asked_too(monkeypatch) -> None:
+    assert nmm.run(parse_scene(COLUMN)).summary.audits["force_balance"] < 1e-12
+    honest = LinearSystem.solve
+
+    def boast(system: LinearSystem, equations: Equations) -> LinearSolution:
+        found = honest(system, equations)
+        return replace(found, increment=1.01 * found.increment, apart=None)
+
+    monkeypatch.setattr(LinearSystem, "solve", boast)
+    run = nmm.run(parse_scene(COLUMN))
+    # Of the weight and of what the foot bears, as large.
+    assert run.summary.audits["force_balance"] == pytest.approx(0.01 / 2.01, rel=1e-6)
+    assert run.summary.status == "unbalanced"
+
+
+def test_forces_below_rounding_of_a_place_are_told_and_are_no_failure() -> None:
+    """A block of 1 g/m2 and 10 TPa, dragged 0.5 m: 1e-16 m are tens of newtons of its supports."""
+    light = text.scene(
+        text.weighty(),
+        [
+            text.material("rock"),
+            text.material("light", modulus=1e13, density=1e-2),
+            *text.floor(),
+            text.box("heavy", (-1.9, 0), (1, 1)),
+            text.block("dragged", "light", text.rectangle((0, 0), (1, 1))),
+            '[[supports]]\nname = "rope"\nblock = "dragged"\nfix = ["x"]\n'
+            "displacement = [0.5, 0.0]\n[loading]\nuntil = 1.0\n"
+            "[formulation.loading]\nincrement = 0.25\n",
+        ],
+    )
+    summary = nmm.run(parse_scene(light)).summary
+    assert summary.status == "converged"
+    assert summary.audits["force_balance"] > 1e-4
+    assert any("smaller than rounding of its place" in one for one in summary.warnings)
