@@ -101,6 +101,8 @@ class _WaysToForces:
         first = ways.budget(budget, near, options.ways)
         if first is not None:
             found = self.alternated(increment, first)
+        if near and found.size > self.tolerance:  # few states are wrong where it is cut short
+            found = found.then(self.polished(found.increment))
         if found.size <= self.tolerance:
             if not near:
                 ways.alternation_met()

@@ -1,4 +1,4 @@
-"""In which order a search in statics tries its ways."""
+"""In which order a search tries its ways."""
 
 from types import SimpleNamespace
 
@@ -8,6 +8,7 @@ import pytest
 from nmm.contact.iteration.cut_spring_solver import _WaysToForces
 from nmm.contact.iteration.options import DEFAULT
 from nmm.contact.iteration.options.budgets import IterationBudget
+from nmm.contact.iteration.ways import Ways
 from nmm.contact.problem.cut_springs import IterationResult
 
 BUDGET = IterationBudget()
@@ -43,3 +44,31 @@ def test_an_alternation_cut_short_near_its_end_goes_on_before_the_interior_point
 @pytest.mark.parametrize(("size", "solves"), [(FAR, BUDGET.solves), (NEAR, 188)])
 def test_one_far_from_its_end_or_out_of_factors_does_not(monkeypatch, size, solves):
     assert ways_taken(monkeypatch, size, solves) == ["alternation", "interior point"]
+
+
+def ways_in_time(monkeypatch, start):
+    """Names of the ways of a step in time whose alternation from a residual is cut short."""
+    taken = []
+
+    def way(name, size):
+        def found(self, *given):
+            taken.append(name)
+            return IterationResult(None, np.zeros(1), size, 108, 1, "")
+
+        return found
+
+    monkeypatch.setattr(_WaysToForces, "alternated", way("alternation", 3e-8))
+    monkeypatch.setattr(_WaysToForces, "polished", way("Newton", 1e-14))
+    monkeypatch.setattr(_WaysToForces, "inside", way("interior point", 1e-14))
+    springs = SimpleNamespace(residual=lambda increment: SimpleNamespace(size=start))
+    tools = SimpleNamespace(options=DEFAULT, memory=SimpleNamespace(ways=Ways()))
+    _WaysToForces(springs, tools, 1e-8).by_cost(np.zeros(1), BUDGET)
+    return taken
+
+
+def test_newton_ends_in_time_what_was_cut_short_near_its_end(monkeypatch):
+    assert ways_in_time(monkeypatch, NEAR) == ["alternation", "Newton"]
+
+
+def test_it_does_not_where_the_search_began_far_away(monkeypatch):
+    assert ways_in_time(monkeypatch, FAR) == ["alternation", "interior point"]
