@@ -1,5 +1,6 @@
 """Cases of the seed paper: what laws of scale and bounds ask of them."""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
@@ -48,6 +49,19 @@ def test_a_large_softening_beam_led_by_its_opening_passes_its_peak(cases: Module
     run = cases.nmm.run(cases.nmm.parse_scene(cases.opened(800.0, 8.0)))
     assert run.summary.status == "failure_load", run.summary.sentence
     assert 84.26 < run.history["load_factor"].max() < 1.2 * 84.26
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("increment", [9.51366, 1.75])
+def test_a_limit_point_beyond_an_unstable_equilibrium_is_told(
+    cases: ModuleType, increment: float
+) -> None:
+    text = cases.beam(800.0, energy=100.0)
+    text = re.sub(r"increment = [\d.]+\n", f"increment = {increment}\n", text, count=1)
+    summary = cases.nmm.run(cases.nmm.parse_scene(text)).summary
+    # Led by the opening in steps of 0.25 um the peak is 92.17.
+    right = summary.failure_factor == pytest.approx(92.17, rel=5e-3)
+    assert ("unstable equilibrium" in summary.sentence) != right
 
 
 @pytest.mark.slow

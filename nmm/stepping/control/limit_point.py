@@ -56,7 +56,13 @@ def limit_point(stepper: Stepper, state: State, factor: float) -> LimitPoint | N
     control: Control = Dissipation(PART * energy) if soft else NextEvent(1.0)
     end, quiet = PathEnd(factor, PEAK_PASSED), Recorder(stepper, Tee([]), [])
     at = replace(OnPath.at_start(state, control.increment), way=_way(stepper, state))
-    last, verdict = run_path(stepper, quiet, at, control, end, lambda share, said: None)
+    passed: list[tuple[float, int]] = []  # highest load factor and unstable ways of each place
+
+    def keep(at: OnPath) -> OnPath:
+        passed.append((at.peak, quiet.totals.ways))
+        return at
+
+    last, verdict = run_path(stepper, quiet, at, control, end, lambda share, said: None, keep)
     stepper.restore(record)
     stepper.budget.taken = taken
     peak = verdict.load_factor
@@ -68,6 +74,12 @@ def limit_point(stepper: Stepper, state: State, factor: float) -> LimitPoint | N
         f"{last.load_factor:.6g} in equilibrium; it was followed as evidence and is not recorded: "
         f'[loading.control] type = "{kind}" records it'
     )
+    unstable = next((highest for highest, ways in passed if ways), peak)
+    if unstable < peak:
+        sentence += (
+            f"; the way there led through an unstable equilibrium at {unstable:.6g}: a load that "
+            "grows may fail there already; lower [loading] increment and compare"
+        )
     return LimitPoint(peak, sentence)
 
 
