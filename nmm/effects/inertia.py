@@ -11,6 +11,7 @@ from integration.contraction import some
 from nmm.assembly.applied_forces import AppliedForces
 from nmm.assembly.kept import KeptOfStates
 from nmm.assembly.model import Model
+from nmm.assembly.spin import SpinOfStep
 from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.solvers.unchecked import product
@@ -62,18 +63,51 @@ class Inertia(Effect):
             return AppliedForces.of_densities()
         return AppliedForces.of_acceleration(acceleration)
 
-    def turned_less(self, state: State, step: float) -> Floats | None:
-        """Return by how much less than ``omega step`` strained bodies turn in a step, in unknowns.
+    def through(
+        self, state: State, step: float, share: float, end: State | None = None
+    ) -> SpinOfStep | None:
+        """Return what spin does to strained bodies through a step; None where no axes turn.
 
-        ``2 s / J0`` of that (n,), with ``s`` half way through the step at the velocity of its
-        start; None where no axes turn.
+        It starts with a ``share`` of the velocity of ``state``. Without the ``end`` that a solution
+        has found, bodies spin on, and their deformations go on.
         """
-        spin = self.spin(state)
-        if not (self._axes_turn and some(spin)):
+        if not self._axes_turn:
+            return None
+        spin = share * self.spin(state)
+        if end is not None:
+            last, half_way = self.spin(end), (state.deformation + end.deformation) / 2
+            mean = (spin + last) / 2 * self._stretch(half_way)
+            return SpinOfStep((spin**2 + last**2) / 2, mean)
+        if not some(spin):
             return None
         half_way = state.deformation + step / 2 * state.velocity
-        slower = spin * self._stretch(half_way)
-        return np.asarray(step * slower[self._model.manifold.unknown_body] * self._turns[0])
+        return SpinOfStep(spin**2, spin * self._stretch(half_way))
+
+    def pull(self, spin: SpinOfStep) -> Floats:
+        """Return the mean pull outwards (n,) of a step (N)."""
+        return product(self.mass, product(self._model.manifold.stretch_modes, spin.squared))
+
+    def turned_less(self, spin: SpinOfStep, step: float) -> Floats:
+        """Return by how much less than their spin strained bodies turn in a step, in unknowns."""
+        return np.asarray(step * spin.slower[self._model.manifold.unknown_body] * self._turns[1])
+
+    def misjudged(
+        self, used: SpinOfStep | None, before: State, after: State
+    ) -> tuple[float, float]:
+        """Return the energy (J) that a step made which ``used`` other means, and the kinetic one.
+
+        That is the reference's, whatever the bodies' stretch.
+        """
+        if not self._axes_turn:
+            return 0.0, 0.0
+        first, last = self.spin(before), self.spin(after)
+        begun, ended = self._stretch(before.deformation), self._stretch(after.deformation)
+        more = (last - first) * (first + last) * (begun + ended) / 4
+        more += (first**2 + last**2) * (ended - begun) / 4
+        if used is not None:
+            more -= (last - first) * used.slower + used.squared * (ended - begun) / 2
+        moving = float(after.velocity @ product(self.mass, after.velocity)) / 2
+        return abs(float(self._turns[0] @ more)), moving
 
     def turning(self, state: State) -> tuple[Floats, Floats] | None:
         """Return how fast axes turn (B,), and by how much slower than their spin (B,) (rad/s).
@@ -89,19 +123,20 @@ class Inertia(Effect):
     def _stretch(self, deformation: Floats) -> Floats:
         """Return ``2 s / J0`` (B,) of the bodies with a deformation (n,)."""
         manifold = self._model.manifold
-        parts = self._turns[1] * deformation
+        parts = self._turns[2] * deformation
         return np.asarray(2.0 * np.bincount(manifold.unknown_body, parts, manifold.n_bodies))
 
     @cached_property
-    def _turns(self) -> tuple[Floats, Floats]:
-        """Unknowns (n,) of a turn of every body; factors of unknowns in its ``s / J0``."""
+    def _turns(self) -> tuple[Floats, Floats, Floats]:
+        """``J0`` (B,); unknowns (n,) of a turn of every body, and factors in its ``s / J0``."""
         manifold = self._model.manifold
         body, bodies = manifold.unknown_body, manifold.n_bodies
         turn = product(manifold.rigid_modes, np.tile([0.0, 0.0, 1.0], bodies))
-        inertia = np.bincount(body, turn * product(self.mass, turn), bodies)[body]
+        inertia = np.bincount(body, turn * product(self.mass, turn), bodies).astype(float)
         stretch = product(self.mass, product(manifold.stretch_modes, np.ones(bodies)))
-        heavy = inertia > 0  # what has no mass is not slowed
-        return turn, np.divide(stretch, inertia, out=np.zeros_like(stretch), where=heavy)
+        heavy = inertia[body] > 0  # what has no mass is not slowed
+        factors = np.divide(stretch, inertia[body], out=np.zeros_like(stretch), where=heavy)
+        return inertia, turn, factors
 
     def _centrifugal(self, state: State) -> Floats:
         """Return ``omega^2 (X - Xc)`` in unknowns (n,); zero in axes that do not turn."""

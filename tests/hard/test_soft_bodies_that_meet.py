@@ -6,7 +6,6 @@ import pytest
 from nmm.formulation import parse_formulation
 from nmm.scene import parse_scene
 from nmm.stepping.run import run
-from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.stepper import Stepper
 from nmm.verification import text
 from nmm.verification.reading import momentum
@@ -50,29 +49,26 @@ def meeting(rule, cover, step, friction=0.0, order=(0, 1), steps=12, enforcement
 def test_energy_rises_by_no_more_than_1e_6_of_the_turnover_in_a_step(
     rule, step, cover, monkeypatch
 ):
-    """But for what a step does not know when it begins: the spin and the stretch half way."""
-    states, made = [], []
-
-    def after(self, equations, *given, after=Mover.after):
-        states[len(made) :] = [equations.state]
-        return after(self, equations, *given)
+    lost = [0.0]
 
     def accepting(self, attempt, accept=Stepper.accept):
-        state, contacts = accept(self, attempt)
-        ends = states[-1], state
-        made.append(unknown(self.model, self.plan.inertia, *ends, step) - attempt.solved.loss)
-        return state, contacts
+        lost.append(attempt.solved.loss)
+        return accept(self, attempt)
 
-    monkeypatch.setattr(Mover, "after", after)
     monkeypatch.setattr(Stepper, "accept", accepting)
     history = meeting(rule, cover, step, friction=40.0).history
     names = ("kinetic", "strain", "contact")
     energy = np.array([MASS * SPEED**2 / 2, *sum(history[f"{name}_energy"] for name in names)])
-    # Measured 2e-7. Forces that acted at the start of a step gained up to 7e-3.
-    assert (np.diff(energy) - made).max() < 1e-6 * energy.max()
-    # With what steps do not know 5e-5, a third of it in half the step. Bodies that turned at their
-    # spin, whatever their strain, gained 4e-4.
-    assert np.diff(energy).max() < 1e-4 * energy.max()
+    # Friction takes what it books. Bodies turned at the spin and stretch of the start of a step
+    # gained 5e-5, at their spin, whatever their strain, 4e-4, by forces of the start 7e-3.
+    assert (np.diff(energy) + lost[1:]).max() < 1e-6 * energy.max()
+
+
+def test_exact_contacts_that_change_the_spin_within_a_step_make_no_energy():
+    """Moments do the work that rotation gains, by the spin and stretch half way, whatever these."""
+    audits = meeting("newmark", "block", 2e-3, steps=100, enforcement="cone").summary.audits
+    # Measured 4e-8, a step is solved again from 1e-7 on; by those of the start of a step 3.6e-5.
+    assert audits["energy_made_in_run"] < 1e-6
 
 
 def test_blocks_of_one_element_gain_as_little_in_short_steps():
@@ -82,20 +78,6 @@ def test_blocks_of_one_element_gain_as_little_in_short_steps():
     # Without their strain in what is solved again 3e-5 and 1.2e-4.
     assert made["energy_made_in_step"] < 1e-5
     assert made["energy_made_in_run"] < 3e-5
-
-
-def unknown(model, inertia, before, after, step):
-    """Energy (J) that rotation gains in a step beside the work of moments and of the pull outwards.
-
-    Of kinetic energy ``-omega^2 s`` is of the stretch, of which the pull takes
-    ``omega_0^2 (s_1 - s_0)``. Bodies turn by ``2 omega_0 s step / J0`` less, ``s`` half way at the
-    velocity of the start, than at the mean spin by which moments change ``J0 omega^2 / 2``.
-    """
-    rows = (inertia.mass @ model.manifold.stretch_modes).T
-    half_way, end = before.deformation + step / 2 * before.velocity, after.deformation
-    first, last = inertia.spin(before), inertia.spin(after)
-    differ = first * (rows @ half_way) - (first + last) / 2 * (rows @ end)
-    return float(np.sum(2 * (last - first) * differ))
 
 
 @pytest.mark.parametrize("cover", COVERS)

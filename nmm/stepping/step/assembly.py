@@ -93,9 +93,9 @@ class Assembly:
         force, gain, applied = self._weighed(static, line, plan.steady and linear)
         velocity, mass = rule.kinetic_factor * state.velocity, plan.inertia.mass
         rates, factor = rule.momentum(velocity, state.acceleration, step), rule.mass_factor(step)
-        less = plan.inertia.turned_less(state, step)
-        if less is not None:
-            less *= rule.kinetic_factor
+        spin, less = plan.inertia.through(state, step, rule.kinetic_factor), None
+        if spin is not None:
+            less = plan.inertia.turned_less(spin, step)
             rates = rates - factor * less
         momentum = product(mass, rates)
         resisting = plan.damping(state), plan.added_mass(state)
@@ -106,8 +106,8 @@ class Assembly:
             pushed += sum(one @ rates for one in damping.masses.values())
         share = 1.0 if plan.contact is None else rule.contact_factor
         outwards = plan.inertia.force(state, static.end)
-        given = mass, factor, momentum, rates, outwards, less, rule.end_weight, share
-        terms = InertiaTerms(*given, gain, applied, damping)
+        given = mass, factor, momentum, rates, outwards, rule.end_weight, share
+        terms = InertiaTerms(*given, gain, applied, damping, None, spin, less)
         if not terms.weight:  # explicit: what is elastic joins no matrix
             terms = replace(terms, elastic=plan.matrix(state, line.stiffness))
         matrix = self._matrix_in_time(state, line, terms)

@@ -5,16 +5,25 @@ stay linear in the whole increment, whatever the iterate.
 """
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
+from nmm.assembly.spin import SpinOfStep
 from nmm.assembly.state import State
 from nmm.effects.base import Instant
+from nmm.frozen import with_parts
 from nmm.integrators.base import Integrator
 from nmm.integrators.damping import Damping
 from nmm.solvers.unchecked import product
+
+if TYPE_CHECKING:
+    from nmm.effects.inertia import Inertia
+
+# Energy that a step may make, as a share of all there is, for spin and stretch that it foresaw.
+FORESEEN = 1e-7
 
 
 @dataclass(frozen=True)
@@ -59,8 +68,6 @@ class InertiaTerms:
         (n,) whose product with the mass the momentum is.
     outwards
         (n,) the centrifugal force among the forces, whose work the spin pays for.
-    turned_less
-        (n,) by how much less strained bodies turn than by their spin; None where none does.
     weight, contact_factor
         See `nmm.integrators.base`.
     gain
@@ -72,6 +79,10 @@ class InertiaTerms:
         Dampers; None without any.
     elastic
         All that is elastic (n, n), where it is no part of the step's matrix.
+    spin
+        What spin does to strained bodies through the step; None where no body turns.
+    turned_less
+        (n,) by how much less than by their spin they turn; None where none does.
     """
 
     mass: csc_array
@@ -79,13 +90,14 @@ class InertiaTerms:
     momentum: Floats
     rates: Floats
     outwards: Floats
-    turned_less: Floats | None
     weight: float
     contact_factor: float
     gain: Floats | None
     applied: Floats | None = None
     damping: Damping | None = None
     elastic: csc_array | None = None
+    spin: SpinOfStep | None = None
+    turned_less: Floats | None = None
 
 
 @dataclass(frozen=True)
@@ -120,3 +132,39 @@ class Equations:
     inertia: InertiaTerms | None = None
     symmetric: bool = True
     among: Floats | None = None
+
+
+def spinning(equations: Equations, inertia: "Inertia", end: State) -> Equations:
+    """Return the equations with spins and stretches as they were found at an ``end``."""
+    terms, step = equations.inertia, equations.step
+    if terms is None or step is None:
+        return equations
+    spin = inertia.through(equations.state, step, equations.rule.kinetic_factor, end)
+    if spin is None:
+        return equations
+    outwards, less = inertia.pull(spin), inertia.turned_less(spin, step)
+    slower = less if terms.turned_less is None else less - terms.turned_less
+    rates = terms.factor * slower
+    momentum = product(terms.mass, rates)
+    pushed = outwards - terms.outwards - momentum
+    if terms.damping is not None:
+        pushed -= sum(one @ rates for one in terms.damping.masses.values())
+    turned = with_parts(
+        terms,
+        momentum=terms.momentum - momentum,
+        rates=terms.rates - rates,
+        outwards=outwards,
+        spin=spin,
+        turned_less=less,
+    )
+    force = equations.force + pushed / terms.contact_factor
+    return with_parts(equations, force=force, inertia=turned)
+
+
+def misjudged(equations: Equations, inertia: "Inertia", model: Model, end: State) -> bool:
+    """Whether a step makes energy that counts, as it foresaw other spins and stretches."""
+    terms = equations.inertia
+    if terms is None:
+        return False
+    made, moving = inertia.misjudged(terms.spin, equations.state, end)
+    return made > FORESEEN * moving and made > FORESEEN * (moving + model.strain_energy(end))

@@ -18,7 +18,7 @@ from nmm.stepping.step.assembly import Assembly
 from nmm.stepping.step.booking import booked
 from nmm.stepping.step.carried import CarriedState
 from nmm.stepping.step.clock import Clock
-from nmm.stepping.step.equations import Equations, Linearisation
+from nmm.stepping.step.equations import Equations, Linearisation, spinning
 from nmm.stepping.step.free_step import FreeStepSolver
 from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.nonlinear.inner import InternalForces
@@ -131,8 +131,9 @@ class StepSolver:
             with self._clock.phase("assembly"):
                 given = state, end, step, rule, carried.anchored, matter
                 equations = self._assembly.of(*given)
-            bonds = breaking, broken
-            return equations, self._solved(equations, bonds, carried.reach, before)
+                if before is not None and plan.inertia is not None:
+                    equations = spinning(equations, plan.inertia, before.state)
+            return self._solved(equations, (breaking, broken), carried.reach, before)
 
         model, plan = self._current.model, self._current.plan
         if model.matter is None and not plan.bent:
@@ -187,14 +188,14 @@ class StepSolver:
         bonds: tuple["Breaking", "BrokenBonds | None"],
         reach: float,
         before: Attempt | None,
-    ) -> Attempt:
+    ) -> Solution:
         """Solve equations, with contact where the scene has it, near an answer ``before``."""
         try:
             if self._touching is None:
-                return self._alone.attempt(equations)
+                return equations, self._alone.attempt(equations)
             return self._touching.attempt(equations, *bonds, reach, before)
         except SolveError as fault:
-            return Attempt.failed(equations.state, fault)
+            return equations, Attempt.failed(equations.state, fault)
 
     def rounding_changes(self) -> list[Floats]:
         """Changes (n,) that rounding may have made of the last static step without contact."""

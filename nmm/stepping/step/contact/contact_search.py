@@ -19,7 +19,7 @@ from nmm.contact.detection.tolerances import (
 )
 from nmm.model.discretisation import CurrentDiscretisation
 from nmm.stepping.step.clock import Clock
-from nmm.stepping.step.equations import Equations
+from nmm.stepping.step.equations import Equations, misjudged
 from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.trial import Attempt
 
@@ -150,10 +150,16 @@ class ContactSearch:
             return None
         given = solved, equations.state, result.state, sought.midpoint
         half = self.contact.momentum.midpoint(*given)
-        if half is None:
+        if half is None and not self._misjudged(equations, result.state):
             return None
+        half = half or sought.midpoint
         forces = solved.answer.normal_force, solved.answer.shear_force
         return replace(sought, midpoint=half, forces=forces, midpoints=sought.midpoints + 1)
+
+    def _misjudged(self, equations: Equations, end: State) -> bool:
+        inertia = self._current.plan.inertia
+        assert inertia is not None
+        return misjudged(equations, inertia, self._current.model, end)
 
     def _further(
         self, equations: Equations, sought: SoughtContacts, solved: "ContactSolution", reach: float

@@ -13,7 +13,7 @@ from nmm.solvers.linear import LinearSolver
 from nmm.solvers.unchecked import product
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.contact.contact_search import ContactSearch, SoughtContacts
-from nmm.stepping.step.equations import Equations
+from nmm.stepping.step.equations import Equations, spinning
 from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.trial import Attempt
 
@@ -67,11 +67,15 @@ class ContactStepSolver:
         broken: "BrokenBonds | None",
         reach: float,
         foreseen: Attempt | None = None,
-    ) -> Attempt:
+    ) -> tuple[Equations, Attempt]:
         """Solve a step; ``breaking`` says which bonds break at a time, beside those ``broken``.
 
         Contacts are sought up to ``reach`` (m) at first. Those of bodies that bend by any angle act
         between where the step begins and where it was ``foreseen`` to end.
+
+        Returns
+        -------
+        The last equations, with the spins that were found, and their solution.
 
         Raises
         ------
@@ -95,13 +99,18 @@ class ContactStepSolver:
             further = self.search.again(*given) if good else None
             if further is None:
                 break
-            sought = further
+            sought, equations = further, self._spinning(equations, result.state)
         self.search.keep(state, sought)
         if good and solved.rows is not None:
             result = self._completed(equations, solved, result, rest, near is not None)
         passage = "" if motion is None else partners.passage(motion)
         sentence = passage or self._why(verdict.sentence, result, solved)
-        return result.told(good and not passage, sentence, solved, passes)
+        return equations, result.told(good and not passage, sentence, solved, passes)
+
+    def _spinning(self, equations: Equations, end: State) -> Equations:
+        """Return equations of a step in time with the spins that were found at its ``end``."""
+        inertia = self._current.plan.inertia
+        return equations if inertia is None else spinning(equations, inertia, end)
 
     def along(self, equations: Equations, path: "PathEquation", reach: float) -> Attempt:
         """Solve a step of statics whose load factor is found with the unknowns (`PathSteps`)."""
