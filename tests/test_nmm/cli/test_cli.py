@@ -197,7 +197,7 @@ def test_check_finds_faults_of_geometry(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ('"rigid_strain"', '"rigid_strian"', 'cover.functions: "rigid_strian"'),
+        ('"rigid_strain"', '"rigid_strian"', 'cover.functions: local functions: "rigid_strian"'),
         ('"block"  ', '"blok"  ', "expected one of block, sub_blocks, triangles"),
         ('"1 ms"', '"1 ms"\ntype = "newmarc"', 'did you mean "newmark"?'),
         (

@@ -83,7 +83,7 @@ def test_the_page_holds_table_differences_and_faults(bar, tmp_path):
     page = comparison_page(study, "compare.png")
     assert "| family | DDA | manifold | DDA |" in page
     assert "NMM differs from DDA by" in page
-    assert '- broken: formulation: cover.functions: "none_such": expected one of' in page
+    assert 'cover.functions: local functions: "none_such": expected one of' in page
     # energy of uniform tension, sigma^2 / (2 E) times the area
     energy = next(line for line in page.splitlines() if line.startswith("| elastic energy"))
     assert [float(cell) for cell in energy.split("|")[2:4]] == pytest.approx([2e-6] * 2, rel=1e-2)
