@@ -131,14 +131,15 @@ def tower(steps: int, friction: float) -> Tables:
 
 
 def slider(steps: int, wall_beside: bool) -> Tables:
-    """Return a block that slides on a held one, alone or with a wall at rest far away."""
+    """Return a block that is pushed along a held one once all is at rest, a wall beside or none."""
     found = bricks(steps)
     pair = [_block("bed", -20.0, -1.0, -10.0, 0.0), _block("sled", -19.0, 0.0, -18.0, 0.5)]
     held = [{"name": "bed", "block": "bed", "fix": ["x", "y"]}]
-    found["initial_velocities"] = [{"block": "sled", "velocity": [2.0, 0.0]}]
     found["blocks"] = pair + (list(found["blocks"]) if wall_beside else [])
     found["supports"] = held + (list(found["supports"]) if wall_beside else [])
-    return found
+    found["loads"] = [_load("push", kind="point", point=[-18.5, 0.25], force=[2e4, 0.0])]
+    pushed = {"name": "pushed", "loads": ["push"], "duration": found.pop("duration")}
+    return {**found, "stages": [{"name": "rest", "loads": []}, pushed]}
 
 
 def on_still_ground(steps: int) -> Tables:
