@@ -22,8 +22,10 @@ MARK = 0.022  # distance of support marks from their points, likewise
 def draw_conditions(axes: "Axes", scene: "Scene", extent: Floats) -> Floats:
     """Draw supports as marks and loads as arrows; return the extent (2, 2) that holds them too.
 
-    A triangle holds both components, a circle one of them, at the side it pushes against.
+    A triangle holds both components, a circle one of them, at the side it pushes against. Blocks
+    that are held as a whole are hatched.
     """
+    _hatch_held(axes, scene)
     supports = [_draw_support(axes, support, extent) for support in scene.supports]
     loads = [_draw_load(axes, load, extent) for load in scene.loads]
     together = np.concatenate([extent, *supports, *loads])
@@ -37,6 +39,15 @@ def _places(item: "SupportTable | LoadTable", count: int) -> Floats:
     if item.segment is None:
         return np.zeros((0, 2))
     return np.linspace(item.segment[0], item.segment[1], count)
+
+
+def _hatch_held(axes: "Axes", scene: "Scene") -> None:
+    """Hatch the blocks that a support holds as a whole."""
+    whole = {one.block for one in scene.supports if one.point is None and one.segment is None}
+    for block in scene.blocks:  # a handful is held
+        if block.name in whole:
+            x, y = np.array(block.vertices).T
+            axes.fill(x, y, facecolor="none", edgecolor=SUPPORT, hatch="//", linewidth=0.0)
 
 
 def _draw_support(axes: "Axes", support: "SupportTable", extent: Floats) -> Floats:

@@ -135,9 +135,13 @@ def _draw_marks(
             axes.add_collection(
                 LineCollection(list(lines), colors=colour, linewidths=width, capstyle="round")
             )
-            points = lines[parts.begin == parts.end, 0]  # contacts that speak for no length
+            lengthless = parts.begin == parts.end  # contacts that speak for no length
+            points = lines[lengthless, 0]
             axes.plot(*points.T, "o", color=colour, markersize=2.5 + width)
-            entries.append(Line2D([], [], color=colour, linewidth=width, label=name))
+            line, marker = ("none", "o") if lengthless.all() else ("-", "none")
+            entries.append(
+                Line2D([], [], color=colour, lw=width, ls=line, marker=marker, label=name)
+            )
     return entries
 
 

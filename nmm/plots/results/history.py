@@ -26,6 +26,8 @@ ENERGIES = (
     "contact_loss",
 )
 DAMPING = "damping_loss"
+SEEN = 0.005
+"""Share of the largest energy below which a curve lies on the axis, and its name hides others."""
 STATES = ("bonded", "stick", "slide", "open", "broken")
 
 
@@ -89,6 +91,7 @@ def history(
     on_grid(axes, x_text, label(one_name, unit), one_name)
     if counted or set(columns) <= {"passes"}:
         axes.yaxis.set_major_locator(MaxNLocator("auto", integer=True, min_n_ticks=1))
+        axes.set_ylim(bottom=0)
     if not alone:
         axes.legend(loc="best", frameon=False, fontsize=SMALL)
     return finished(axes, path)
@@ -106,7 +109,7 @@ def overview(run: RunData, *, path: PathLike | None = None) -> "list[Axes]":
     """
     known, clock = run.history, _clock(run)
     groups: list[tuple[Sequence[str], bool]] = [
-        ([name for name in (*ENERGIES, *family(known, DAMPING)) if varies(known, name)], False),
+        (_seen(known, [*ENERGIES, *family(known, DAMPING)]), False),
         ([name for name in ("load_factor",) if _changes(known, name) and name != clock], False),
         ([name for name in STATES if varies(known, name)], False),
         ([name for name in ("residual",) if varies(known, name)], True),
@@ -124,6 +127,13 @@ def overview(run: RunData, *, path: PathLike | None = None) -> "list[Axes]":
         axes.set_visible(False)
     save(panels[0], path)
     return panels[: len(drawn)]
+
+
+def _seen(known: Mapping[str, Floats], names: Sequence[str]) -> list[str]:
+    """Return the columns that vary and can be told from zero beside the largest of them."""
+    sizes = {name: float(np.nanmax(np.abs(known[name]))) for name in names if varies(known, name)}
+    largest = max(sizes.values(), default=0.0)
+    return [name for name, size in sizes.items() if size > SEEN * largest]
 
 
 def _changes(known: Mapping[str, Floats], name: str) -> bool:

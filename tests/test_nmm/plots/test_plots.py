@@ -382,6 +382,25 @@ def test_contacts_of_one_state_are_counted_in_whole_numbers_and_named():
     assert all(tick == round(tick) for tick in axes.get_yticks())
 
 
+def test_the_overview_leaves_out_energies_that_lie_on_the_axis():
+    run = MemorySink()
+    for step in (0.0, 1.0, 2.0):
+        energies = {
+            "external_work": step,
+            "kinetic_energy": 0.9 * step,
+            "contact_loss": 1e-3 * step,
+        }
+        run.row({"time": step, "step": step, **energies})
+    (axes,) = plots.overview(run)
+    names = [entry.get_text() for entry in axes.get_legend().get_texts()]
+    assert names == ["external work", "kinetic energy"]
+
+
+def test_contact_points_are_counted_from_zero(memory_run):
+    axes = plots.history(memory_run, ["bonded", "broken"])
+    assert axes.get_ylim()[0] == 0.0
+
+
 def test_an_overview_of_nothing_is_empty():
     assert plots.overview(MemorySink()) == []
 
@@ -436,3 +455,12 @@ def test_a_quantity_that_is_drawn_in_place_of_stress_has_one_picture_of_its_name
     drawn = plots.draw_all(run, tmp_path, component="heat:temperature")
     assert [path.name for path in drawn if "temperature" in path.name] == ["heat_temperature.png"]
     assert not [path for path in drawn if path.name.startswith("stress")]
+
+
+def test_a_block_that_is_held_as_a_whole_is_hatched(memory_run):
+    held = '[[blocks]]\nname = "b"\nmaterial = "m"\nvertices = [[0, 0], [1, 0], [1, 1]]\n'
+    support = '[[supports]]\nname = "s"\nblock = "b"\nfix = ["x", "y"]\n'
+    matter = "[materials.m]\nyoung_modulus = 1.0\npoisson_ratio = 0.0\n"
+    scene = parse_scene('plane = "strain"\n' + matter + held + support)
+    hatched = [one for one in plots.blocks(memory_run, scene=scene).patches if one.get_hatch()]
+    assert [one.get_xy()[:3].tolist() for one in hatched] == [[[0, 0], [1, 0], [1, 1]]]
