@@ -12,7 +12,8 @@ from nmm.assembly.model import Model
 from nmm.assembly.state import Frames
 from nmm.assembly.stress_points import StressAt
 from nmm.fracture.auxiliary import Auxiliary
-from nmm.fracture.interaction import Field, ForceWeights, Interaction, InteractionWeights, Traction
+from nmm.fracture.interaction import Field, Interaction, Traction
+from nmm.fracture.interaction_weights import ForceWeights, InteractionWeights
 
 # Step of the finite differences of stress, as a share of the radius of the domain.
 NEARBY = 1e-4
