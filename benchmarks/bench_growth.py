@@ -21,7 +21,7 @@ from nmm.scene.model import Scene
 from nmm.scene.read import parse_scene
 from nmm.stepping.prepare import prepare
 from nmm.stepping.simulation import Simulation
-from nmm.testing.scenes import notched_plate, turned_net
+from nmm.testing.cracked_plates import notched_plate, turned_net
 
 SIZES = (0.05, 0.035, 0.025, 0.0175)
 """Cells of a plate of one by one."""

@@ -9,7 +9,7 @@ import pytest
 import nmm
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
-from nmm.testing.scenes import PULLED, notched_plate, turned_net
+from nmm.testing.cracked_plates import PULLED, notched_plate, turned_net
 from nmm.verification import text
 from nmm.verification.problems.cracks.crack_paths import force
 from nmm.verification.problems.cracks.crack_scenes import crack

@@ -7,156 +7,145 @@ something from step to step.
 import re
 
 from nmm.testing.scenes import column_on_ground, wet_pile
+from nmm.verification import text
 
-HEAD = """
-title = "restart"
-plane = "strain"
-[materials.rock]
-density = 2500
-young_modulus = "1 GPa"
-poisson_ratio = 0.2
-"""
-
-BRICK = """
-[[blocks]]
-name = "brick{number}"
-material = "rock"
-vertices = [[{left}, {low}], [{right}, {low}], [{right}, {high}], [{left}, {high}]]
-"""
+ROCK = text.material("rock", 1e9, 0.2, 2500.0)
+LIGHT_ROCK = text.material("rock", 1e9, 0.2, 2000.0)
+FALLS = "[inertia]\n[gravity]\n[contact]\n"
+HELD_FLOOR = '[[supports]]\nname = "held"\nblock = "floor"\nfix = ["x", "y"]\n'
 
 
-def bricks() -> str:
+def opening(title: str = "restart", plane: str = "strain", duration: float | None = None) -> str:
+    """Return the keys ahead of all tables; ``duration`` in s."""
+    span = "" if duration is None else f"duration = {duration}\n"
+    return f'title = "{title}"\nplane = "{plane}"\n{span}'
+
+
+def box(
+    name: str, left: float, low: float, right: float, high: float, material: str = "rock"
+) -> str:
+    """Return the table of an upright rectangular block."""
+    return text.block(name, material, text.rectangle((left, low), (right, high)))
+
+
+def thrown(block: str, velocity: list[float], spin: float | None = None) -> str:
+    """Return the table of a block that moves as the run begins."""
+    turns = "" if spin is None else f"angular_velocity = {spin}\n"
+    return f'[[initial_velocities]]\nblock = "{block}"\nvelocity = {velocity}\n{turns}'
+
+
+def monitor(name: str, point: list[float]) -> str:
+    """Return the table of a monitor of the block that is there."""
+    return f'[[monitors]]\nname = "{name}"\npoint = {point}\n'
+
+
+def dry(friction: float, name: str = "dry") -> str:
+    """Return the table of joints with a friction angle in degrees."""
+    return text.interface(name, friction)
+
+
+def every(steps: int) -> str:
+    """Return the table of a run that stores a frame each so many steps."""
+    return f"[output]\nevery_steps = {steps}\n"
+
+
+def cover(kind: str, size: float, degree: int = 1) -> str:
+    """Return the table of a cover."""
+    return f'[formulation.cover]\ntype = "{kind}"\nsize = {size}\ndegree = {degree}\n'
+
+
+def method(part: str, name: str) -> str:
+    """Return the table of how supports or glue are imposed."""
+    return f'[formulation.{part}]\nmethod = "{name}"\n'
+
+
+def increment(share: float, tolerance: float | None = None) -> str:
+    """Return the table of how a load grows."""
+    within = "" if tolerance is None else f"tolerance = {tolerance}\n"
+    return f"[formulation.loading]\nincrement = {share}\n{within}"
+
+
+def integrator(step: float, rule: str = "") -> str:
+    """Return the table of steps of a length (s) by a rule, the default's where none is named."""
+    named = f'type = "{rule}"\n' if rule else ""
+    return f"[formulation.integrator]\n{named}step = {step}\n"
+
+
+def stage(name: str, keys: str = "") -> str:
+    """Return the table of a stage."""
+    return f'[[stages]]\nname = "{name}"\n{keys}\n'
+
+
+def wall(rule: str, enforcement: str = "penalty") -> str:
     """Return two courses of bricks, the upper one shifted, a little above each other."""
     places = [(0.0, 0.001), (0.505, 0.001), (1.01, 0.001), (0.25, 0.303), (0.755, 0.303)]
-    return "".join(
-        BRICK.format(number=number, left=x, right=x + 0.5, low=y, high=y + 0.3)
-        for number, (x, y) in enumerate(places)
+    return text.scene(
+        opening(duration=0.04),
+        [
+            ROCK,
+            FALLS,
+            dry(25.0),
+            box("floor", -1, -1, 3, 0),
+            *(box(f"brick{n}", x, y, x + 0.5, y + 0.3) for n, (x, y) in enumerate(places)),
+            HELD_FLOOR,
+            thrown("brick4", [1, 0]),
+            text.monitor("top", (1, 0.6), "brick4"),
+            '[output]\nevery_time = "10 ms"\n',
+            rule,
+            f'[formulation.contact]\nenforcement = "{enforcement}"\n',
+        ],
     )
 
 
-WALL = (
-    'duration = "40 ms"'
-    + HEAD
-    + """
-[inertia]
-[gravity]
-[contact]
-[interfaces.dry]
-friction_angle = "25 deg"
-[[blocks]]
-name = "floor"
-material = "rock"
-vertices = [[-1, -1], [3, -1], [3, 0], [-1, 0]]
-{bricks}
-[[supports]]
-name = "held"
-block = "floor"
-fix = ["x", "y"]
-[[initial_velocities]]
-block = "brick4"
-velocity = [1, 0]
-[[monitors]]
-name = "top"
-point = [1, 0.6]
-block = "brick4"
-[output]
-every_time = "10 ms"
-{checkpoint}
-[formulation.integrator]
-{integrator}
-[formulation.contact]
-enforcement = "{enforcement}"
-"""
-).replace("{bricks}", bricks())
+def joint_set(name: str, dip: float) -> str:
+    """Return the table of joints that cut the slope, a dip in degrees."""
+    return f'[[joint_sets]]\nname = "{name}"\nblock = "slope"\ndip = "{dip} deg"\nspacing = 4.5\n'
 
-SLOPE = (
-    'duration = "60 ms"'
-    + HEAD
-    + """
-seed = 3
-[inertia]
-[gravity]
-[contact]
-[interfaces.joint]
-friction_angle = "15 deg"
-[[blocks]]
-name = "slope"
-material = "rock"
-vertices = [[0, 2], [30, 2], [30, 20], [16, 20], [8, 6], [0, 6]]
-[[blocks]]
-name = "base"
-material = "rock"
-vertices = [[-10, 0], [34, 0], [34, 2], [-10, 2]]
-[[joint_sets]]
-name = "one"
-block = "slope"
-dip = "35 deg"
-spacing = 4.5
-[[joint_sets]]
-name = "two"
-block = "slope"
-dip = "110 deg"
-spacing = 4.5
-[[supports]]
-name = "held"
-block = "base"
-fix = ["x", "y"]
-[output]
-every_steps = 5
-{checkpoint}
-[formulation.integrator]
-step = "2 ms"
-"""
-).replace("seed = 3\n[inertia]", "[inertia]")
 
-BEAM = (
-    HEAD
-    + """
-[interfaces.concrete]
-bonded = true
-cohesion = "4.7 MPa"
-tensile_strength = "2.9 MPa"
-friction_angle = "37 deg"
-[[tessellations]]
+SLOPE = text.scene(
+    opening(duration=0.06),
+    [
+        ROCK,
+        FALLS,
+        dry(15.0, "joint"),
+        text.block("slope", "rock", [(0, 2), (30, 2), (30, 20), (16, 20), (8, 6), (0, 6)]),
+        box("base", -10, 0, 34, 2),
+        joint_set("one", 35),
+        joint_set("two", 110),
+        HELD_FLOOR.replace("floor", "base"),
+        every(5),
+        integrator(2e-3),
+    ],
+)
+
+BEAM = text.scene(
+    opening(),
+    [
+        ROCK,
+        text.interface(
+            "concrete", 37.0, more={"bonded": True, "cohesion": 4.7e6, "tensile_strength": 2.9e6}
+        ),
+        """[[tessellations]]
 name = "beam"
 material = "rock"
 region = [[0, 0], [0.4, 0], [0.4, 0.1], [0, 0.1]]
 blocks = 14
 seed = 1
-[[supports]]
-name = "pin"
-point = [0.05, 0]
-fix = ["x", "y"]
-[[supports]]
-name = "roller"
-point = [0.35, 0]
-fix = ["y"]
-[[loads]]
-name = "plate"
-kind = "edge"
-segment = [[0.19, 0.1], [0.21, 0.1]]
-traction = [0, "-5 MPa"]
-[contact]
-[loading]
-until = "failure"
-maximum_factor = 40
-[output]
-events = ["bond_breaks"]
-{checkpoint}
-[formulation.loading]
-increment = 0.1
-tolerance = 0.01
-"""
+""",
+        text.fixed_point("pin", (0.05, 0)),
+        text.fixed_point("roller", (0.35, 0), "y"),
+        text.pulled_edge("plate", [(0.19, 0.1), (0.21, 0.1)], (0, -5e6)),
+        '[contact]\n[loading]\nuntil = "failure"\nmaximum_factor = 40\n',
+        '[output]\nevents = ["bond_breaks"]\n',
+        increment(0.1, 0.01),
+    ],
 )
 
-SOFTENING = """
-title = "bar"
-plane = "stress"
-thickness = 0.01
-[materials.rock]
-young_modulus = "30 GPa"
-poisson_ratio = 0.0
-[interfaces.i]
+SOFTENING = text.scene(
+    opening("bar", "stress") + "thickness = 0.01\n",
+    [
+        text.material("rock", 30e9, 0.0, None),
+        """[interfaces.i]
 law = "linear_softening"
 friction_angle = 0.6
 cohesion = 3e6
@@ -164,378 +153,186 @@ tensile_strength = 3e6
 bonded = true
 fracture_energy = 100.0
 normal_stiffness = 3e15
-[[blocks]]
-name = "a"
-material = "rock"
-vertices = [[0, 0], [0.05, 0], [0.05, 0.01], [0, 0.01]]
-[[blocks]]
-name = "b"
-material = "rock"
-vertices = [[0.05, 0], [0.1, 0], [0.1, 0.01], [0.05, 0.01]]
-[[supports]]
-name = "left"
-segment = [[0, 0], [0, 0.01]]
-fix = ["x", "y"]
-[[supports]]
-name = "right"
-segment = [[0.1, 0], [0.1, 0.01]]
-fix = ["x", "y"]
-displacement = [8e-5, 0]
-[contact]
-[loading]
-until = 1.0
-[output]
-every_steps = 3
-{checkpoint}
-[formulation.loading]
-increment = 0.05
-tolerance = 1e-4
-"""
-
-MESH = (
-    'duration = "12 ms"'
-    + HEAD
-    + """
-[inertia]
-[gravity]
-[contact]
-[interfaces.any]
-friction_angle = "20 deg"
-[[blocks]]
-name = "floor"
-material = "rock"
-vertices = [[-1, -1], [3, -1], [3, 0], [-1, 0]]
-[[blocks]]
-name = "stone"
-material = "rock"
-vertices = [[0, 1e-5], [1, 1e-5], [1, 0.5], [0, 0.6]]
-[[initial_velocities]]
-block = "stone"
-velocity = [0.5, 0]
-[[supports]]
-name = "held"
-segment = [[-1, -1], [3, -1]]
-fix = ["x", "y"]
-[output]
-every_steps = 4
-{checkpoint}
-[formulation.cover]
-type = "triangles"
-size = 0.8
-degree = 1
-[formulation.integrator]
-step = "1 ms"
-[formulation.supports]
-method = "{method}"
-[formulation.contact]
-enforcement = "{enforcement}"
-"""
+""",
+        box("a", 0, 0, 0.05, 0.01),
+        box("b", 0.05, 0, 0.1, 0.01),
+        text.fixed_edge("left", [(0, 0), (0, 0.01)]),
+        text.fixed_edge("right", [(0.1, 0), (0.1, 0.01)]) + "displacement = [8e-5, 0]\n",
+        "[contact]\n[loading]\nuntil = 1.0\n",
+        every(3),
+        increment(0.05, 1e-4),
+    ],
 )
 
-RELAXED = (
-    HEAD
-    + """
-[gravity]
-[contact]
-[interfaces.dry]
-friction_angle = "35 deg"
-[[blocks]]
-name = "floor"
-material = "rock"
-vertices = [[-1, -1], [3, -1], [3, 0], [-1, 0]]
-[[blocks]]
-name = "low"
-material = "rock"
-vertices = [[0, 0.001], [1, 0.001], [1, 0.5], [0, 0.5]]
-[[blocks]]
-name = "high"
-material = "rock"
-vertices = [[0.3, 0.502], [1.2, 0.502], [1.2, 1], [0.3, 1]]
-[[supports]]
-name = "held"
-block = "floor"
-fix = ["x", "y"]
-[[loads]]
-name = "push"
-kind = "point"
-point = [0.3, 0.75]
-block = "high"
-force = [2000, 0]
-[loading]
-until = 1.0
-[output]
-{checkpoint}
-[formulation.loading]
-increment = 0.1
-tolerance = 1e-3
-"""
+
+def mesh(supports: str, enforcement: str) -> str:
+    """Return a stone that slides on a floor, both of finite elements."""
+    return text.scene(
+        opening(duration=0.012),
+        [
+            ROCK,
+            FALLS,
+            dry(20.0, "any"),
+            box("floor", -1, -1, 3, 0),
+            text.block("stone", "rock", [(0, 1e-5), (1, 1e-5), (1, 0.5), (0, 0.6)]),
+            thrown("stone", [0.5, 0]),
+            text.fixed_edge("held", [(-1, -1), (3, -1)]),
+            every(4),
+            cover("triangles", 0.8),
+            integrator(1e-3),
+            method("supports", supports),
+            f'[formulation.contact]\nenforcement = "{enforcement}"\n',
+        ],
+    )
+
+
+RELAXED = text.scene(
+    opening(),
+    [
+        ROCK,
+        "[gravity]\n[contact]\n",
+        dry(35.0),
+        box("floor", -1, -1, 3, 0),
+        box("low", 0, 0.001, 1, 0.5),
+        box("high", 0.3, 0.502, 1.2, 1),
+        HELD_FLOOR,
+        '[[loads]]\nname = "push"\nkind = "point"\npoint = [0.3, 0.75]\nblock = "high"\n'
+        "force = [2000, 0]\n",
+        "[loading]\nuntil = 1.0\n[output]\n",
+        increment(0.1, 1e-3),
+    ],
 )
 
-PLASTIC = """
-title = "cycle"
-plane = "stress"
-[materials.steel]
+
+def plastic(history: list[list[float]], more: list[str], duration: float | None = None) -> str:
+    """Return a bar of steel that is pulled beyond its yield stress."""
+    return text.scene(
+        opening("cycle", "stress", duration),
+        [
+            """[materials.steel]
 law = "von_mises"
 young_modulus = "200 GPa"
 poisson_ratio = 0.3
 density = 7800.0
 yield_stress = "250 MPa"
 hardening_modulus = "20 GPa"
-[[blocks]]
-name = "bar"
-material = "steel"
-vertices = [[0, 0], [2, 0], [2, 1], [0, 1]]
-[[supports]]
-name = "left"
-segment = [[0, 0], [0, 1]]
-fix = ["x", "y"]
-[[loads]]
-name = "pull"
-kind = "edge"
-segment = [[2, 0], [2, 1]]
-traction = ["300 MPa", 0]
-history = [[0, 0], [1, 1], [2, 0]]
-[[monitors]]
-name = "tip"
-point = [2, 0.5]
-[output]
-every_steps = 3
-{checkpoint}
-"""
-PLASTIC_LOADED = (
-    PLASTIC
-    + """
-[loading]
-until = 2.0
-scaled = []
-[formulation.loading]
-increment = 0.2
-[formulation.cover]
-type = "triangles"
-size = 0.7
-degree = 0
-[formulation.supports]
-method = "lagrange"
-"""
+""",
+            box("bar", 0, 0, 2, 1, "steel"),
+            text.fixed_edge("left", [(0, 0), (0, 1)]),
+            text.pulled_edge("pull", [(2, 0), (2, 1)], (300e6, 0)) + f"history = {history}\n",
+            monitor("tip", [2, 0.5]),
+            every(3),
+            *more,
+        ],
+    )
+
+
+PLASTIC_LOADED = plastic(
+    [[0, 0], [1, 1], [2, 0]],
+    [
+        "[loading]\nuntil = 2.0\nscaled = []\n",
+        increment(0.2),
+        cover("triangles", 0.7, 0),
+        method("supports", "lagrange"),
+    ],
 )
-PLASTIC_MOVING = (
-    "duration = 0.002\n"
-    + PLASTIC.replace("[[0, 0], [1, 1], [2, 0]]", "[[0, 0], [4e-4, 1], [1, 1]]")
-    + """
-[inertia]
-[formulation.integrator]
-type = "newmark"
-step = 1e-4
-"""
+PLASTIC_MOVING = plastic(
+    [[0, 0], [4e-4, 1], [1, 1]], ["[inertia]\n", integrator(1e-4, "newmark")], 0.002
 )
 
-CLASSICAL = (
-    'duration = "50 ms"'
-    + HEAD
-    + """
-[inertia]
-[gravity]
-[[blocks]]
-name = "top"
-material = "rock"
-vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
-[[initial_velocities]]
-block = "top"
-velocity = [3, 4]
-angular_velocity = 20
-[output]
-every_steps = 3
-{checkpoint}
-[formulation.integrator]
-step = "2 ms"
-[formulation.rotation]
-update = "linear"
-"""
+CLASSICAL = text.scene(
+    opening(duration=0.05),
+    [
+        ROCK,
+        "[inertia]\n[gravity]\n",
+        box("top", 0, 0, 1, 1),
+        thrown("top", [3, 4], 20),
+        every(3),
+        integrator(2e-3),
+        '[formulation.rotation]\nupdate = "linear"\n',
+    ],
 )
 
-GLUED = (
-    HEAD
-    + """
-[interfaces.any]
-bonded = true
-friction_angle = "37 deg"
-[[blocks]]
-name = "left"
-material = "rock"
-vertices = [[1e7, 0], [10000001, 0], [10000001, 1], [1e7, 1]]
-[[blocks]]
-name = "right"
-material = "rock"
-vertices = [[10000001, 0], [10000002, 0], [10000002, 1], [10000001, 1]]
-[[initial_stresses]]
-block = "left"
-stress = [1000, 0, 0]
-[[supports]]
-name = "wall"
-segment = [[1e7, 0], [1e7, 1]]
-fix = ["x", "y"]
-[[supports]]
-name = "driven"
-segment = [[10000002, 0], [10000002, 1]]
-fix = ["x"]
-displacement = [1e-3, 0]
-[loading]
-until = 1.0
-[output]
-{checkpoint}
-[formulation.loading]
-increment = 0.1
-[formulation.supports]
-method = "lagrange"
-[formulation.glue]
-method = "lagrange"
-[formulation.cover]
-type = "quads"
-size = 0.4
-degree = 1
-"""
-)
+
+def glued(supports: str, glue: str, share: float, more: str = "") -> str:
+    """Return two glued blocks far from the origin, the right one driven, under a stress."""
+    a, b, c = 1e7, 10000001, 10000002
+    return text.scene(
+        opening(),
+        [
+            ROCK,
+            text.interface("any", 37.0, more={"bonded": True}),
+            box("left", a, 0, b, 1),
+            box("right", b, 0, c, 1),
+            '[[initial_stresses]]\nblock = "left"\nstress = [1000, 0, 0]\n',
+            text.fixed_edge("wall", [(a, 0), (a, 1)]),
+            text.fixed_edge("driven", [(c, 0), (c, 1)], "x") + "displacement = [1e-3, 0]\n",
+            "[output]\n",
+            increment(share),
+            method("supports", supports),
+            method("glue", glue),
+            cover("quads", 0.4),
+            more,
+        ],
+    )
+
 
 LAID = (
-    GLUED.replace("[loading]\nuntil = 1.0\n", "")
-    .replace(
-        '[formulation.supports]\nmethod = "lagrange"', '[formulation.supports]\nmethod = "penalty"'
-    )
-    .replace('[formulation.glue]\nmethod = "lagrange"', '[formulation.glue]\nmethod = "spring"')
-    .replace("increment = 0.1", "increment = 0.5")
-    + """
-[[stages]]
-name = "in place"
-[[stages]]
-name = "let go"
-supports = ["wall"]
-cover = { size = 0.3 }
-[[stages]]
-name = "held again"
-supports = ["wall", "driven"]
-[[stages]]
-name = "coarser"
-cover = { size = 0.5 }
-"""
+    stage("in place")
+    + stage("let go", 'supports = ["wall"]\ncover = { size = 0.3 }')
+    + stage("held again", 'supports = ["wall", "driven"]')
+    + stage("coarser", "cover = { size = 0.5 }")
 )
 
-STAGED = """
-title = "stages"
-plane = "stress"
-[materials.rock]
-young_modulus = 1e9
-poisson_ratio = 0.2
-density = 2000
-[[blocks]]
-name = "lower"
-material = "rock"
-vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
-[[blocks]]
-name = "upper"
-material = "rock"
-vertices = [[0.2, 1], [1, 1], [1, 2], [0, 2]]
-[gravity]
-[inertia]
-[contact]
-[interfaces.any]
-between = "any"
-friction_angle = 0.5
-[[supports]]
-name = "floor"
-segment = [[0, 0], [1, 0]]
-fix = ["x", "y"]
-[[monitors]]
-name = "top"
-point = [0.5, 1]
-block = "lower"
-[output]
-every_steps = 3
-{checkpoint}
-[[stages]]
-name = "rest"
-[[stages]]
-name = "free"
-duration = 0.006
-remove = ["upper"]
-[[stages]]
-name = "finer"
-duration = 0.006
-add = ["upper"]
-cover = { degree = 2 }
-[formulation.cover]
-type = "triangles"
-size = 0.8
-degree = 1
-[formulation.integrator]
-step = 1e-3
-"""
+STAGED = text.scene(
+    opening("stages", "stress"),
+    [
+        LIGHT_ROCK,
+        box("lower", 0, 0, 1, 1),
+        text.block("upper", "rock", [(0.2, 1), (1, 1), (1, 2), (0, 2)]),
+        FALLS,
+        '[interfaces.any]\nbetween = "any"\nfriction_angle = 0.5\n',
+        text.fixed_edge("floor", [(0, 0), (1, 0)]),
+        text.monitor("top", (0.5, 1), "lower"),
+        every(3),
+        stage("rest"),
+        stage("free", 'duration = 0.006\nremove = ["upper"]'),
+        stage("finer", 'duration = 0.006\nadd = ["upper"]\ncover = { degree = 2 }'),
+        cover("triangles", 0.8),
+        integrator(1e-3),
+    ],
+)
 
-RELEASED = """
-title = "released"
-plane = "strain"
-[materials.rock]
-young_modulus = 1e9
-poisson_ratio = 0.2
-density = 2000
-[materials.weathered]
-young_modulus = 5e8
-poisson_ratio = 0.2
-density = 2000
-[[blocks]]
-name = "ground"
-material = "rock"
-vertices = [[0, 0], [3, 0], [3, 2], [0, 2]]
-holes = [[[1, 0.5], [2, 0.5], [2, 1.5], [1, 1.5]]]
-[[blocks]]
-name = "core"
-material = "rock"
-vertices = [[1, 0.5], [2, 0.5], [2, 1.5], [1, 1.5]]
-[gravity]
-[interfaces.any]
-between = "any"
-friction_angle = 0.5
-bonded = true
-[[supports]]
-name = "floor"
-segment = [[0, 0], [3, 0]]
-fix = ["x", "y"]
-[[monitors]]
-name = "top"
-point = [1.5, 2]
-[output]
-every_steps = 3
-{checkpoint}
-[[stages]]
-name = "in place"
-[[stages]]
-name = "dug"
-remove = ["core"]
-release = 0.5
-[[stages]]
-name = "open"
-release = 1.0
-materials = { ground = "weathered" }
-[formulation.cover]
-type = "quads"
-size = 0.8
-degree = 1
-[formulation.loading]
-increment = 0.25
-"""
+CORE = text.rectangle((1, 0.5), (2, 1.5))
+RELEASED = text.scene(
+    opening("released"),
+    [
+        LIGHT_ROCK,
+        text.material("weathered", 5e8, 0.2, 2000.0),
+        box("ground", 0, 0, 3, 2) + f"holes = [{CORE.tolist()}]\n",
+        text.block("core", "rock", CORE),
+        "[gravity]\n",
+        '[interfaces.any]\nbetween = "any"\nfriction_angle = 0.5\nbonded = true\n',
+        text.fixed_edge("floor", [(0, 0), (3, 0)]),
+        monitor("top", [1.5, 2]),
+        every(3),
+        stage("in place"),
+        stage("dug", 'remove = ["core"]\nrelease = 0.5'),
+        stage("open", 'release = 1.0\nmaterials = { ground = "weathered" }'),
+        cover("quads", 0.8),
+        increment(0.25),
+    ],
+)
 
-SHAKEN = """
-title = "shaken"
-plane = "strain"
-duration = {duration}
-[materials.soil]
-density = 2000
-young_modulus = "450 MPa"
-poisson_ratio = 0.25
-[[blocks]]
-name = "soil"
-material = "soil"
-vertices = [[0, 0], [8, 0], [8, 6], [0, 6]]
-[records.wave]
+
+def shaken(stages: str = "", duration: float | None = None) -> str:
+    """Return soil on ground that shakes, beside ground that does, under loads of all kinds."""
+    return text.scene(
+        opening("shaken", duration=duration),
+        [
+            text.material("soil", 450e6, 0.25, 2000.0),
+            box("soil", 0, 0, 8, 6, "soil"),
+            """[records.wave]
 values = [0, 0.3, -0.2, 0.1, 0, 0]
 step = 0.01
 [[viscous_boundaries]]
@@ -562,75 +359,40 @@ name = "wind"
 kind = "edge"
 segment = [[0, 6], [8, 6]]
 field = ["1e3*sin(200*t)*x", "0"]
-[[monitors]]
-name = "top"
-point = [4, 6]
-[inertia]
-[damping]
-ratios = [0.05, 0.05]
-frequencies = [5, 50]
-local = 0.1
-[output]
-every_steps = 4
-{checkpoint}
-{stages}
-[formulation.cover]
-type = "triangles"
-size = 3
-degree = 1
-[formulation.integrator]
-type = "newmark"
-step = 2e-3
-[formulation.solver]
-type = "superlu"
-"""
-SHAKEN_STAGES = """
-[[stages]]
-name = "first"
-duration = 0.012
-[[stages]]
-name = "finer"
-duration = 0.012
-cover = { degree = 2 }
-"""
-LEFT_STANDING = (
-    column_on_ground()
-    + """[output]
-every_steps = 3
-{checkpoint}
-[[stages]]
-name = "in place"
-[[stages]]
-name = "shaken"
-supports = []
-duration = 0.04
-[[stages]]
-name = "shaken on"
-duration = 0.02
-[formulation.cover]
-type = "quads"
-size = 0.9
-degree = 1
-[formulation.integrator]
-type = "newmark"
-step = 0.004
-"""
+""",
+            monitor("top", [4, 6]),
+            "[inertia]\n[damping]\nratios = [0.05, 0.05]\nfrequencies = [5, 50]\nlocal = 0.1\n",
+            every(4),
+            stages,
+            cover("triangles", 3),
+            integrator(2e-3, "newmark"),
+            '[formulation.solver]\ntype = "superlu"\n',
+        ],
+    )
+
+
+SHAKEN_STAGES = stage("first", "duration = 0.012") + stage(
+    "finer", "duration = 0.012\ncover = { degree = 2 }"
 )
-SEASONS = """
-title = "wall in winter and summer"
-plane = "strain"
-[materials.rock]
-young_modulus = "1 GPa"
-poisson_ratio = 0.2
-density = 2000
-conductivity = 2.0
+LEFT_STANDING = text.scene(
+    column_on_ground(),
+    [
+        every(3),
+        stage("in place"),
+        stage("shaken", "supports = []\nduration = 0.04"),
+        stage("shaken on", "duration = 0.02"),
+        cover("quads", 0.9),
+        integrator(0.004, "newmark"),
+    ],
+)
+SEASONS = text.scene(
+    opening("wall in winter and summer"),
+    [
+        LIGHT_ROCK,
+        """conductivity = 2.0
 heat_capacity = 800
 thermal_expansion = 1e-5
 hydraulic_conductivity = 1e-6
-[[blocks]]
-name = "wall"
-material = "rock"
-vertices = [[0, 0], [1, 0], [1, 3], [0, 3]]
 [gravity]
 [heat]
 transient = true
@@ -652,40 +414,22 @@ head = 0.0
 name = "flood"
 segment = [[1, 0], [1, 3]]
 level = 2.0
-[[supports]]
-name = "bottom"
-segment = [[0, 0], [1, 0]]
-fix = ["x", "y"]
-[output]
-every_steps = 3
-{checkpoint}
-[[stages]]
-name = "winter"
-heat = ["inside"]
-water = ["foot"]
-[[stages]]
-name = "summer"
-heat = ["summer"]
-water = ["foot", "flood"]
-[formulation.cover]
-type = "quads"
-size = 0.6
-degree = 1
-[formulation.loading]
-increment = 0.2
-"""
-SETTLING_SOIL = """
-title = "soil that settles as its water leaves"
-plane = "strain"
-[materials.soil]
-young_modulus = "10 MPa"
-poisson_ratio = 0.2
-hydraulic_conductivity = 1e-7
+""",
+        box("wall", 0, 0, 1, 3),
+        text.fixed_edge("bottom", [(0, 0), (1, 0)]),
+        every(3),
+        stage("winter", 'heat = ["inside"]\nwater = ["foot"]'),
+        stage("summer", 'heat = ["summer"]\nwater = ["foot", "flood"]'),
+        cover("quads", 0.6),
+        increment(0.2),
+    ],
+)
+SETTLING_SOIL = text.scene(
+    opening("soil that settles as its water leaves"),
+    [
+        text.material("soil", 10e6, 0.2, None),
+        """hydraulic_conductivity = 1e-7
 specific_storage = 1e-6
-[[blocks]]
-name = "soil"
-material = "soil"
-vertices = [[0, 0], [2, 0], [2, 1], [0, 1]]
 [seepage]
 coupled = true
 transient = true
@@ -695,255 +439,124 @@ duration = "1 h"
 name = "top"
 segment = [[0, 1], [2, 1]]
 head = 1.0
-[[loads]]
-name = "fill"
-kind = "edge"
-segment = [[0, 1], [1, 1]]
-traction = [0, -5e4]
-[[supports]]
-name = "bottom"
-segment = [[0, 0], [2, 0]]
-fix = ["x", "y"]
-[output]
-every_steps = 3
-{checkpoint}
-[formulation.cover]
-type = "quads"
-size = 0.6
-degree = 1
-[formulation.supports]
-method = "penalty"
-[formulation.loading]
-increment = 0.1
-"""
-FILLING_JOINT = (
-    """
-title = "joint that fills and opens"
-plane = "strain"
-[contact]
-[gravity]
-[joint_flow]
-transient = true
-initial = 0.0
-duration = "10 min"
-"""
-    + wet_pile("0.1 mm")
-    + """[output]
-every_steps = 3
-{checkpoint}
-[formulation.loading]
-increment = 0.1
-"""
+""",
+        box("soil", 0, 0, 2, 1, "soil"),
+        text.pulled_edge("fill", [(0, 1), (1, 1)], (0, -5e4)),
+        text.fixed_edge("bottom", [(0, 0), (2, 0)]),
+        every(3),
+        cover("quads", 0.6),
+        method("supports", "penalty"),
+        increment(0.1),
+    ],
 )
-SHAKEN_ON_ROCK = """
-duration = 0.03
-title = "shaken block"
-plane = "strain"
-[materials.rock]
-density = 2500
-young_modulus = "1 GPa"
-poisson_ratio = 0.2
-[[blocks]]
-name = "floor"
-material = "rock"
-vertices = [[-1, -1], [3, -1], [3, 0], [-1, 0]]
-[[blocks]]
-name = "stone"
-material = "rock"
-vertices = [[0, 0.001], [1, 0.001], [1, 0.5], [0, 0.6]]
-[records.shake]
-samples = [[0, 0], [0.01, 6], [0.02, -6], [0.03, 0]]
-[[supports]]
-name = "held"
-block = "floor"
-fix = ["x", "y"]
-motion = { x = "shake" }
-[inertia]
-[gravity]
-[contact]
-[damping]
-stiffness = 1e-4
-local = 0.2
-[interfaces.dry]
-friction_angle = "25 deg"
-[output]
-every_steps = 4
-{checkpoint}
-[formulation.integrator]
-step = 1e-3
-"""
+FILLING_JOINT = text.scene(
+    opening("joint that fills and opens"),
+    [
+        "[contact]\n[gravity]\n"
+        '[joint_flow]\ntransient = true\ninitial = 0.0\nduration = "10 min"\n',
+        wet_pile("0.1 mm"),
+        every(3),
+        increment(0.1),
+    ],
+)
+SHAKEN_ON_ROCK = text.scene(
+    opening("shaken block", duration=0.03),
+    [
+        ROCK,
+        box("floor", -1, -1, 3, 0),
+        text.block("stone", "rock", [(0, 0.001), (1, 0.001), (1, 0.5), (0, 0.6)]),
+        "[records.shake]\nsamples = [[0, 0], [0.01, 6], [0.02, -6], [0.03, 0]]\n",
+        HELD_FLOOR + 'motion = { x = "shake" }\n',
+        FALLS,
+        "[damping]\nstiffness = 1e-4\nlocal = 0.2\n",
+        dry(25.0),
+        every(4),
+        integrator(1e-3),
+    ],
+)
 
-RUBBER = """
-duration = 0.16
-title = "rubber that lands"
-plane = "strain"
-[materials.rubber]
-law = "neo_hookean"
-density = 1.0
-young_modulus = 100.0
-poisson_ratio = 0.3
-[[blocks]]
-name = "floor"
-material = "rubber"
-vertices = [[-1, -0.5], [2, -0.5], [2, 0], [-1, 0]]
-[[blocks]]
-name = "strip"
-material = "rubber"
-vertices = [[0, 0.1], [1, 0.3], [0.95, 0.5], [-0.05, 0.3]]
-[[supports]]
-name = "held"
-segment = [[-1, -0.5], [2, -0.5]]
-fix = ["x", "y"]
-[[initial_velocities]]
-block = "strip"
-velocity = [0, -1]
-angular_velocity = 2
-[inertia]
-[contact]
-[interfaces.dry]
-friction_angle = "25 deg"
-[output]
-every_steps = 4
-{checkpoint}
-[formulation.cover]
-type = "triangles"
-size = 0.6
-degree = 1
-[formulation.rotation]
-update = "finite"
-[formulation.integrator]
-type = "energy_momentum"
-step = 0.02
-"""
-BENT = """
-title = "strip that bends"
-plane = "stress"
-[materials.rubber]
-young_modulus = 1e6
-poisson_ratio = 0.0
-[[blocks]]
-name = "strip"
-material = "rubber"
-vertices = [[0, 0], [10, 0], [10, 0.2], [0, 0.2]]
-[[supports]]
-name = "held"
-segment = [[0, 0], [0, 0.2]]
-fix = ["x", "y"]
-[[loads]]
-name = "up"
-kind = "edge"
-segment = [[10, 0], [10, 0.2]]
-traction = [0, 300]
-[[loads]]
-name = "press"
-kind = "pressure"
-segment = [[5, 0], [10, 0]]
-pressure = 3.0
-[loading]
-until = 1.0
-[output]
-{checkpoint}
-[formulation.cover]
-type = "quads"
-size = 1.0
-degree = 1
-[formulation.rotation]
-update = "finite"
-[formulation.loading]
-increment = 0.1
-"""
+RUBBER = text.scene(
+    opening("rubber that lands", duration=0.16),
+    [
+        text.material("rubber", 100.0, 0.3, 1.0) + 'law = "neo_hookean"\n',
+        box("floor", -1, -0.5, 2, 0, "rubber"),
+        text.block("strip", "rubber", [(0, 0.1), (1, 0.3), (0.95, 0.5), (-0.05, 0.3)]),
+        text.fixed_edge("held", [(-1, -0.5), (2, -0.5)]),
+        thrown("strip", [0, -1], 2),
+        "[inertia]\n[contact]\n",
+        dry(25.0),
+        every(4),
+        cover("triangles", 0.6),
+        '[formulation.rotation]\nupdate = "finite"\n',
+        integrator(0.02, "energy_momentum"),
+    ],
+)
+BENT = text.scene(
+    opening("strip that bends", "stress"),
+    [
+        text.material("rubber", 1e6, 0.0, None),
+        box("strip", 0, 0, 10, 0.2, "rubber"),
+        text.fixed_edge("held", [(0, 0), (0, 0.2)]),
+        text.pulled_edge("up", [(10, 0), (10, 0.2)], (0, 300)),
+        '[[loads]]\nname = "press"\nkind = "pressure"\nsegment = [[5, 0], [10, 0]]\n'
+        "pressure = 3.0\n",
+        "[loading]\nuntil = 1.0\n[output]\n",
+        cover("quads", 1.0),
+        '[formulation.rotation]\nupdate = "finite"\n',
+        increment(0.1),
+    ],
+)
 
-BOX = """
-[[blocks]]
-name = "{name}"
-material = "rock"
-vertices = [[0, {low}], [1, {low}], [1, {high}], [0, {high}]]
-"""
-CRUSHED = (
-    'duration = "12 ms"'
-    + HEAD
-    + BOX.format(name="floor", low=-1, high=0)
-    + BOX.format(name="stone", low=0, high=0.6)
-    + """
-[inertia]
-[contact]
-[interfaces.dry]
-friction_angle = "25 deg"
-[[supports]]
-name = "held"
-segment = [[0, -1], [1, -1]]
-fix = ["x", "y"]
-[[initial_velocities]]
-block = "stone"
-velocity = [0, -5]
-[splitting.rock]
-tensile_strength = 5e4
-smallest_block = 0.05
-most_blocks = 8
-[output]
-every_steps = 4
-{checkpoint}
-[formulation.integrator]
-step = 1e-3
-"""
+
+def crushed(stages: str = "", duration: float | None = None) -> str:
+    """Return a stone that splits as it hits the floor."""
+    return text.scene(
+        opening(duration=duration),
+        [
+            ROCK,
+            box("floor", 0, -1, 1, 0),
+            box("stone", 0, 0, 1, 0.6),
+            "[inertia]\n[contact]\n",
+            dry(25.0),
+            text.fixed_edge("held", [(0, -1), (1, -1)]),
+            thrown("stone", [0, -5]),
+            "[splitting.rock]\ntensile_strength = 5e4\nsmallest_block = 0.05\nmost_blocks = 8\n",
+            every(4),
+            integrator(1e-3),
+            stages,
+        ],
+    )
+
+
+def growing(stages: str = "", duration: float | None = None) -> str:
+    """Return a notched plate whose crack grows as it is pulled."""
+    return text.scene(
+        opening(duration=duration),
+        [
+            ROCK,
+            box("plate", 0, 0, 1, 1),
+            '[[cracks]]\nname = "notch"\npoints = [[0, 0.5], [0.45, 0.5]]\n',
+            text.fixed_edge("held", [(0, 0), (1, 0)]),
+            text.pulled_edge("pull", [(0, 1), (1, 1)], (5e4, 1e6)),
+            every(4),
+            cover("quads", 0.125),
+            "[fracture]\nenergy = 100.0\nincrement = 0.05\nmax_growth = 0.2\n",
+            stages,
+            "[inertia]\n",
+            integrator(1e-4, "newmark"),
+        ],
+    )
+
+
+GROWING_STAGES = (
+    stage("in time", "duration = 4e-3")
+    + stage("at rest", "loads = []")
+    + stage("in time again", 'duration = 5e-4\nloads = ["pull"]')
 )
-NOTCHED = (
-    HEAD
-    + BOX.format(name="plate", low=0, high=1)
-    + """
-[[cracks]]
-name = "notch"
-points = [[0, 0.5], [0.45, 0.5]]
-[[supports]]
-name = "held"
-segment = [[0, 0], [1, 0]]
-fix = ["x", "y"]
-[[loads]]
-name = "pull"
-kind = "edge"
-segment = [[0, 1], [1, 1]]
-traction = [5e4, 1e6]
-[output]
-every_steps = 4
-{checkpoint}
-[formulation.cover]
-type = "quads"
-size = 0.125
-degree = 1
-"""
-)
-GROWING = """
-[fracture]
-energy = 100.0
-increment = 0.05
-max_growth = 0.2
-"""
-GROWING_STAGES = """
-[[stages]]
-name = "in time"
-duration = 4e-3
-[[stages]]
-name = "at rest"
-loads = []
-[[stages]]
-name = "in time again"
-duration = 5e-4
-loads = ["pull"]
-"""
-IN_STAGES = """
-[[stages]]
-name = "first"
-duration = "6 ms"
-[[stages]]
-name = "second"
-duration = "6 ms"
-"""
-SHI = 'step = "2 ms"'
-NEWMARK = 'type = "newmark"\nstep = "2 ms"'
-OWN_NEWMARK = 'type = "newmark"\nstep = "2 ms"\n[formulation.integrator.options]\ngamma = 0.6'
-BY_ERROR = 'type = "newmark"\nstep = "auto"\nerror = 0.1\nshortest = "0.1 ms"'
-IN_TIME = '[formulation.integrator]\ntype = "newmark"\nstep = 1e-4\n'
-ALPHA = 'type = "generalized_alpha"\nstep = "2 ms"'
+CRUSHED_STAGES = stage("first", 'duration = "6 ms"') + stage("second", 'duration = "6 ms"')
+SHI, NEWMARK = integrator(2e-3), integrator(2e-3, "newmark")
+OWN_NEWMARK = NEWMARK + "[formulation.integrator.options]\ngamma = 0.6\n"
+BY_ERROR = NEWMARK.replace("0.002", '"auto"') + 'error = 0.1\nshortest = "0.1 ms"\n'
 
 
 def by_error(scene: str) -> str:
@@ -953,33 +566,33 @@ def by_error(scene: str) -> str:
 
 
 SCENES = {
-    "wall": WALL.replace("{integrator}", SHI).replace("{enforcement}", "penalty"),
-    "wall newmark": WALL.replace("{integrator}", NEWMARK).replace("{enforcement}", "penalty"),
-    "wall by error": WALL.replace("{integrator}", BY_ERROR).replace("{enforcement}", "penalty"),
-    "cone by error": WALL.replace("{integrator}", BY_ERROR).replace("{enforcement}", "cone"),
-    "wall alpha": WALL.replace("{integrator}", ALPHA).replace("{enforcement}", "penalty"),
-    "wall carried": WALL.replace("{integrator}", OWN_NEWMARK).replace("{enforcement}", "cone"),
-    "wall cone": WALL.replace("{integrator}", SHI).replace("{enforcement}", "cone"),
-    "wall barrier": WALL.replace("{integrator}", SHI).replace("{enforcement}", "barrier"),
-    "wall augmented": WALL.replace("{integrator}", SHI).replace("{enforcement}", "augmented"),
-    "wall lagrange": WALL.replace("{integrator}", SHI).replace("{enforcement}", "lagrange"),
+    "wall": wall(SHI),
+    "wall newmark": wall(NEWMARK),
+    "wall by error": wall(BY_ERROR),
+    "cone by error": wall(BY_ERROR, "cone"),
+    "wall alpha": wall(integrator(2e-3, "generalized_alpha")),
+    "wall carried": wall(OWN_NEWMARK, "cone"),
+    "wall cone": wall(SHI, "cone"),
+    "wall barrier": wall(SHI, "barrier"),
+    "wall augmented": wall(SHI, "augmented"),
+    "wall lagrange": wall(SHI, "lagrange"),
     "slope": SLOPE,
     "bonds break": BEAM,
     "softening": SOFTENING,
-    "mesh": MESH.replace("{method}", "auto").replace("{enforcement}", "penalty"),
-    "mesh multipliers": MESH.replace("{method}", "lagrange").replace("{enforcement}", "cone"),
+    "mesh": mesh("auto", "penalty"),
+    "mesh multipliers": mesh("lagrange", "cone"),
     "relaxed": RELAXED,
     "plastic": PLASTIC_LOADED,
     "plastic in time": PLASTIC_MOVING,
     "plastic by error": by_error(PLASTIC_MOVING),
     "classical update": CLASSICAL,
-    "glued": GLUED,
-    "laid springs": LAID,
+    "glued": glued("lagrange", "lagrange", 0.1, "[loading]\nuntil = 1.0\n"),
+    "laid springs": glued("penalty", "spring", 0.5, LAID),
     "stages": STAGED,
     "released": RELEASED,
-    "shaken": SHAKEN.replace("{duration}", "0.03").replace("{stages}", ""),
+    "shaken": shaken(duration=0.03),
     "stone by error": by_error(SHAKEN_ON_ROCK),
-    "shaken stages": SHAKEN.replace("duration = {duration}", "").replace("{stages}", SHAKEN_STAGES),
+    "shaken stages": shaken(SHAKEN_STAGES),
     "shaken stone": SHAKEN_ON_ROCK,
     "left standing": LEFT_STANDING,
     "seasons": SEASONS,
@@ -987,13 +600,13 @@ SCENES = {
     "filling joint": FILLING_JOINT,
     "rubber": RUBBER,
     "bent": BENT,
-    "crushed": CRUSHED,
-    "crushed in stages": CRUSHED.replace('duration = "12 ms"', "") + IN_STAGES,
-    "growing in time": "duration = 1e-3\n" + NOTCHED + GROWING + "[inertia]\n" + IN_TIME,
-    "growing in stages": NOTCHED + GROWING + GROWING_STAGES + "[inertia]\n" + IN_TIME,
+    "crushed": crushed(duration=0.012),
+    "crushed in stages": crushed(CRUSHED_STAGES),
+    "growing in time": growing(duration=1e-3),
+    "growing in stages": growing(GROWING_STAGES),
 }
 
 
 def scene_of(name: str, checkpoint: str = "") -> str:
     """Return the text of a scene with a line about checkpoints in its ``[output]``."""
-    return SCENES[name].replace("{checkpoint}", checkpoint)
+    return SCENES[name].replace("[output]\n", f"[output]\n{checkpoint}\n")

@@ -6,7 +6,7 @@ import pytest
 import nmm
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
-from nmm.testing.scenes import PULLED_APART, turned_net
+from nmm.testing.cracked_plates import PULLED_APART, turned_net
 
 # A strip of 2 by 2 with a notch from either side on one line, pulled upwards.
 NOTCHES = """

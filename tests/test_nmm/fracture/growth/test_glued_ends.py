@@ -5,7 +5,7 @@ import pytest
 import nmm
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
-from nmm.testing.scenes import PULLED_APART, turned_net
+from nmm.testing.cracked_plates import PULLED_APART, turned_net
 
 # Two squares, one glued on the other, pulled upwards; the crack runs towards the seam.
 HALVES = """

@@ -16,8 +16,8 @@ from nmm.model.from_polygons import solid
 from nmm.scene.model import Scene
 from nmm.scene.read import parse_scene
 from nmm.stepping.prepare import prepare
+from nmm.testing.cracked_plates import PULLED, notched_plate, turned_net
 from nmm.testing.resumed.stopping import check_goes_on
-from nmm.testing.scenes import PULLED, notched_plate, turned_net
 from nmm.verification.continuum import polygon
 
 DRIVEN = """

@@ -19,7 +19,7 @@ from nmm.fracture.nucleation.coupled import (
 )
 from nmm.scene.read import parse_scene
 from nmm.stepping.run import Run
-from nmm.testing.scenes import turned_net
+from nmm.testing.cracked_plates import turned_net
 from nmm.verification import text
 from nmm.verification.problems.cracks.nucleation import KIRSCH, led, ring
 

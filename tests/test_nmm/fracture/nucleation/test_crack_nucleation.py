@@ -13,8 +13,8 @@ from nmm.scene.model import Scene
 from nmm.scene.read import parse_scene
 from nmm.stepping.prepare import prepare
 from nmm.stepping.run import Run
+from nmm.testing.cracked_plates import turned_net
 from nmm.testing.resumed.stopping import check_resumed, stopped_after
-from nmm.testing.scenes import turned_net
 from nmm.verification import text
 from nmm.verification.problems.cracks.nucleation import led
 

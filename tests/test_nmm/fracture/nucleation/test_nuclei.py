@@ -9,7 +9,7 @@ from nmm.formulation import parse_formulation
 from nmm.fracture.nucleation.rule import mean_length
 from nmm.scene.read import parse_scene
 from nmm.stepping.run import Run
-from nmm.testing.scenes import turned_net
+from nmm.testing.cracked_plates import turned_net
 from nmm.verification import text
 from nmm.verification.problems.cracks.nucleation import KIRSCH, Box, led, ring
 

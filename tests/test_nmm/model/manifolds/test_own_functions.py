@@ -14,33 +14,11 @@ from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
 from nmm.scene.read import parse_scene
 from nmm.stepping.run import run
+from nmm.testing.cracked_plates import cracked_plate
+from nmm.verification import text
 from nmm.verification.continuum import polygon
 
-CRACKED = """
-plane = "strain"
-[materials.m]
-young_modulus = 1.0
-poisson_ratio = 0.3
-[[blocks]]
-name = "b"
-material = "m"
-vertices = [[0, -1], [1, -1], [1, 1], [0, 1]]
-[[cracks]]
-name = "c"
-points = [[0, 0], [0.3, 0.1]]
-[[loads]]
-name = "up"
-kind = "edge"
-segment = [[0, 1], [1, 1]]
-traction = [0, 0.1]
-[[supports]]
-name = "floor"
-segment = [[0, -1], [1, -1]]
-fix = ["x", "y"]
-[[monitors]]
-name = "corner"
-point = [0, 1]
-"""
+CRACKED = cracked_plate([(0, 0), (0.3, 0.1)], 0.1, text.monitor("corner", (0, 1), "b"))
 NET = '[cover]\ntype = "triangles"\nsize = 0.15\nangle = 0.4\nfunctions = "{}"\n'
 NEAR = "[[cover.regions]]\ndegree = 2\npoint = [0, 0]\nradius = 0.4\n"
 BODY = polygon(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]))

@@ -12,30 +12,9 @@ from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
 from nmm.scene.read import parse_scene
 from nmm.stepping.run import run
+from nmm.testing.cracked_plates import cracked_plate
 from nmm.verification.continuum import polygon
 
-PLATE = """
-plane = "strain"
-[materials.m]
-young_modulus = 1.0
-poisson_ratio = 0.3
-[[blocks]]
-name = "b"
-material = "m"
-vertices = [[0, -1], [1, -1], [1, 1], [0, 1]]
-[[cracks]]
-name = "c"
-points = {crack}
-[[loads]]
-name = "up"
-kind = "edge"
-segment = [[0, 1], [1, 1]]
-traction = [0, 1.0]
-[[supports]]
-name = "floor"
-segment = [[0, -1], [1, -1]]
-fix = ["x", "y"]
-"""
 NET = """
 [cover]
 type = "triangles"
@@ -54,7 +33,7 @@ def kinked(angle: float, away: float) -> list[list[float]]:
 @pytest.mark.parametrize("crack", [kinked(-1.2, 0.05), [[0.0, 0.0], [0.3, 0.1]]])
 def test_tips_with_functions_are_no_news(crack: list[list[float]]) -> None:
     how = parse_formulation(NET + "[cover.enrichment]\nradius = 0.1\n")
-    assert not run(parse_scene(PLATE.format(crack=crack)), how).summary.warnings
+    assert not run(parse_scene(cracked_plate(crack)), how).summary.warnings
 
 
 @pytest.mark.parametrize(
@@ -67,7 +46,7 @@ def test_tips_with_functions_are_no_news(crack: list[list[float]]) -> None:
 )
 def test_tips_without_functions_are_told(crack: list[list[float]], table: str) -> None:
     how = parse_formulation(NET + table)
-    (warning,) = run(parse_scene(PLATE.format(crack=crack)), how).summary.warnings
+    (warning,) = run(parse_scene(cracked_plate(crack)), how).summary.warnings
     assert "crack tips without tip functions" in warning
 
 
@@ -83,7 +62,7 @@ def test_explain_says_which_tips_carry_functions(
         ([[0.0, 0.0], [0.3, 0.1]], "crack tip [0.3, 0.1]: carries tip functions"),
         (kinked(np.pi / 2, 0.05), "crack tip [0.3, 0.05]: carries tip functions"),
     ):
-        scene.write_text(PLATE.format(crack=crack))
+        scene.write_text(cracked_plate(crack))
         explain(scene, formulation, False)
         assert said in capsys.readouterr().out
     formulation.write_text(NET + "[cover.enrichment]\ntips = false\n")
