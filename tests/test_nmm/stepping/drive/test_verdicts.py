@@ -226,6 +226,29 @@ def test_a_spent_budget_keeps_what_was_reached():
     assert (found.status, found.steps) == ("budget_spent", 0)
 
 
+def test_a_run_that_its_budget_of_steps_stops_is_where_a_run_to_there_ends():
+    """Loads of 0.3 as three steps and as a part of 1.0 differ by rounding alone, audits too."""
+    text = BLOCKS % 30 + PUSH % (0.02, 0.5 * WEIGHT) + '[loading]\nscaled = ["push"]\n'
+    made = {"loading": {"increment": 0.1}}, {"loading": {"increment": 0.1, "max_steps": 3}}
+    scenes = (nmm.parse_scene(text + f"until = {until}\n") for until in (0.3, 1.0))
+    whole, stopped = (
+        nmm.run(scene, nmm.Formulation.model_validate(one))
+        for scene, one in zip(scenes, made, strict=True)
+    )
+    assert (whole.summary.status, stopped.summary.status) == ("converged", "budget_spent")
+    strain = whole.state.deformation
+    np.testing.assert_allclose(
+        stopped.state.deformation, strain, rtol=0, atol=1e-9 * np.abs(strain).max()
+    )
+    np.testing.assert_allclose(
+        stopped.state.frames.centre, whole.state.frames.centre, rtol=0, atol=1e-12
+    )
+    audits = whole.summary.audits
+    assert audits.keys() - stopped.summary.audits.keys() == {"force_balance"}
+    for name, value in stopped.summary.audits.items():
+        assert value == pytest.approx(audits[name], rel=1e-6, abs=1e-12)
+
+
 def test_a_dynamic_run_ends_with_its_budget():
     text = "duration = 1.0\n" + BLOCKS % 30 + "[inertia]\n"
     table = {"loading": {"max_steps": 5}, "integrator": {"step": 0.01}}
