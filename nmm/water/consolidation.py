@@ -20,7 +20,6 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Bools, Floats
 from integration.contraction import some
-from nmm import capacity
 from nmm.assembly.state import State
 from nmm.diffusion.course import FieldAt
 from nmm.diffusion.problem import step_between
@@ -28,13 +27,11 @@ from nmm.effects.base import Instant, Setup
 from nmm.errors import Fault, SceneError
 from nmm.frozen import with_parts
 from nmm.geometry.tessellation.cover_types import piece_glue
+from nmm.water.full_matrix import full_matrix, refuse_full
 from nmm.water.pore_water import PoreWater
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
-
-# Bytes for each entry of the matrix: value and index, once more in a sum.
-ENTRY = 48
 
 
 class Consolidation(PoreWater):
@@ -105,15 +102,12 @@ class Consolidation(PoreWater):
         """Return the matrix for the duration of the present step."""
         assert self.stress is not None
         coupling, problem = self.stress.coupling, self.course.problem
-        shape = coupling.shape[0], coupling.shape[0]
         if not problem.free.any():
-            return csc_array(shape)
+            return csc_array((coupling.shape[0], coupling.shape[0]))
         used = np.flatnonzero(np.diff(coupling.indptr))
         some = csc_array(coupling[used])
         full = self._weight * (some @ problem.relief(self._step, csc_array(some.T)))
-        row, column = np.meshgrid(used, used, indexing="ij")
-        even = (full + full.T) / 2
-        return csc_array((even.ravel(), (row.ravel(), column.ravel())), shape=shape)
+        return full_matrix(full, used, coupling.shape[0])
 
     def _begun(self, state: State, end: Instant) -> FieldAt:
         """Return the field at the start of the step to ``end``."""
@@ -150,8 +144,7 @@ def _refuse_uncoupled(setup: Setup) -> None:
         expected = f"{table} that need no traction, which the pressure is a part of"
         remedy = f"[{table}] {other} of the formulation"
         raise SceneError(Fault(place, f'{table} by "{method}"', expected, remedy))
-    count = manifold.n_unknowns
-    capacity.refuse(place, f"{count} unknowns", ENTRY * count**2, "take larger cells")
+    refuse_full(place, manifold.n_unknowns, "take larger cells")
 
 
 def _by_tractions(setup: Setup) -> Iterator[tuple[str, str, str]]:

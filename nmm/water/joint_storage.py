@@ -24,6 +24,7 @@ from nmm.assembly.state import State
 from nmm.diffusion.problem import step_between
 from nmm.effects.base import Instant, Setup
 from nmm.effects.change import Change
+from nmm.water.full_matrix import full_matrix, refuse_full
 from nmm.water.joint_water import JointWater
 
 
@@ -87,6 +88,8 @@ class JointStorage(JointWater):
         table = setup.scene.joint_flow
         assert table is not None
         assert table.initial is not None
+        place = setup.scene.source.place("joint_flow", "transient")
+        refuse_full(place, setup.model.manifold.n_unknowns, "take fewer blocks, or steady flow")
         found = super().from_setup(setup)
         found._bulk = table.bulk_modulus
         found._second = 1.0 if table.duration is None else table.duration
@@ -123,21 +126,18 @@ class JointStorage(JointWater):
 
     def matrix(self, state: State) -> csc_array:
         """Return minus the derivative of the pressure's force by the motion (n, n)."""
-        step, shape = self._step, (self.n_unknowns, self.n_unknowns)
         free = self._free(self._time)
         # There is no suction: only nodes under pressure respond.
         wet = free & (self._at(state, self._time).head > self.sites.places[:, 1])
         if not wet.any():
-            return csc_array(shape)
+            return csc_array((self.n_unknowns, self.n_unknowns))
         coupling = self._coupling(state, wet)
         used = np.flatnonzero(np.abs(coupling).any(axis=1))
         full = np.zeros((self.network.n, len(used)))
         full[wet] = coupling[used].T
-        answers = np.linalg.solve(self._matrix(state, step)[np.ix_(free, free)], full[free])
+        answers = np.linalg.solve(self._matrix(state, self._step)[np.ix_(free, free)], full[free])
         found = self.weight * (coupling[used] @ answers[wet[free]])
-        row, column = np.meshgrid(used, used, indexing="ij")
-        even = (found + found.T) / 2
-        return csc_array((even.ravel(), (row.ravel(), column.ravel())), shape=shape)
+        return full_matrix(found, used, self.n_unknowns)
 
     def accepted(self, state: State) -> None:
         """See `Effect.accepted`: solve for the heads with the apertures of the accepted state."""
