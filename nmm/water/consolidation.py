@@ -107,7 +107,7 @@ class Consolidation(PoreWater):
         used = np.flatnonzero(np.diff(coupling.indptr))
         some = csc_array(coupling[used])
         full = self._weight * (some @ problem.relief(self._step, csc_array(some.T)))
-        return full_matrix(full, used, coupling.shape[0])
+        return full_matrix((full + full.T) / 2, used, coupling.shape[0])
 
     def _begun(self, state: State, end: Instant) -> FieldAt:
         """Return the field at the start of the step to ``end``."""
@@ -136,7 +136,7 @@ def _refuse_uncoupled(setup: Setup) -> None:
         there are too many unknowns for a full matrix.
     """
     place = setup.scene.source.place("seepage", "coupled")
-    asked, manifold = setup.formulation.diffusion, setup.model.manifold
+    asked = setup.formulation.diffusion
     if asked is not None and (asked.theta != 1 or asked.step is not None):
         expected = "steps of the field that are those of the run, with theta = 1"
         raise SceneError(Fault(place, "[diffusion] theta or step", expected, "remove [diffusion]"))
@@ -144,7 +144,7 @@ def _refuse_uncoupled(setup: Setup) -> None:
         expected = f"{table} that need no traction, which the pressure is a part of"
         remedy = f"[{table}] {other} of the formulation"
         raise SceneError(Fault(place, f'{table} by "{method}"', expected, remedy))
-    refuse_full(place, manifold.n_unknowns, "take larger cells")
+    refuse_full(setup, place, "take larger cells")
 
 
 def _by_tractions(setup: Setup) -> Iterator[tuple[str, str, str]]:

@@ -10,10 +10,16 @@ where ``G`` is the conductance with known apertures and ``C`` the force of unit 
 blocks, so that ``C^T d`` is the volume that their motion ``d`` opens. The force ``w C h1`` on the
 blocks is linear in ``d``; so the matrix ``w C (M + dt G)^-1 C^T`` is added to the stiffness, heads
 and motion are found together, and steps are stable however stiff the water is.
+
+There is no suction: a node whose head is below it stores ``M = V / H``, with the height ``H``
+of its joints, by draining or filling them: what opens faster than water comes in is void. Where a
+node loses or gains its pressure in a step the force is no longer linear, and the step is solved by
+Newton's method.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
@@ -22,10 +28,15 @@ from scipy.sparse import csc_array
 from integration.arrays import Bools, Floats
 from nmm.assembly.state import State
 from nmm.diffusion.problem import step_between
-from nmm.effects.base import Instant, Setup
+from nmm.effects.base import Instant, Setup, Span, StepForce
 from nmm.effects.change import Change
 from nmm.water.full_matrix import full_matrix, refuse_full
 from nmm.water.joint_water import JointWater
+
+# Passes over which nodes are under pressure; the matrices are monotone, so that few are taken.
+PASSES = 50
+# Least share of the largest volume, so that nodes of closed joints store something.
+TIGHT = 1e-9
 
 
 @dataclass(frozen=True)
@@ -58,8 +69,10 @@ class OpenJoints:
         The state.
     aperture
         (j, 2) apertures at their ends (m).
-    volume, store
-        (n,) volumes of the joints at their nodes (m3), and their storage by a unit of head (m2).
+    volume
+        (n,) volumes of the joints at their nodes (m3).
+    store
+        (n,) storage by a unit of head (m2) at nodes under pressure.
     flow
         (n, n) conductance matrix ``G`` of the network (m2/s).
     """
@@ -78,8 +91,9 @@ class JointStorage(JointWater):
     _began: WaterStored
     _end: WaterStored
     _bulk, _second = 2.2e9, 1.0
-    _step, _time = 0.0, 0.0
+    _time = 0.0
     _open: OpenJoints | None = None
+    _start: OpenJoints | None = None
     _found: tuple[State, WaterStored, WaterStored] | None = None
 
     @classmethod
@@ -89,7 +103,7 @@ class JointStorage(JointWater):
         assert table is not None
         assert table.initial is not None
         place = setup.scene.source.place("joint_flow", "transient")
-        refuse_full(place, setup.model.manifold.n_unknowns, "take fewer blocks, or steady flow")
+        refuse_full(setup, place, "take fewer blocks, or steady flow")
         found = super().from_setup(setup)
         found._bulk = table.bulk_modulus
         found._second = 1.0 if table.duration is None else table.duration
@@ -118,29 +132,39 @@ class JointStorage(JointWater):
         time = end.time * self._second
         if time == self._began.time:  # the force at the start of the step, whose duration stays
             return super().force(state, end)
-        self._step, self._time = step_between(self._began.time, time), time
-        head = self._at(state, time).head
-        pressure = self.weight * np.maximum(head - self.sites.places[:, 1], 0.0)
-        forces = self.sites.forces(state, pressure[self.sites.nodes])
-        return self.sites.interface.spread(state, forces)
+        self._time, self._start = time, self._opened(state)
+        return self._push(state, self._pressure(self._at(state, time).head))
 
     def matrix(self, state: State) -> csc_array:
         """Return minus the derivative of the pressure's force by the motion (n, n)."""
-        free = self._free(self._time)
-        # There is no suction: only nodes under pressure respond.
-        wet = free & (self._at(state, self._time).head > self.sites.places[:, 1])
-        if not wet.any():
-            return csc_array((self.n_unknowns, self.n_unknowns))
-        coupling = self._coupling(state, wet)
-        used = np.flatnonzero(np.abs(coupling).any(axis=1))
-        full = np.zeros((self.network.n, len(used)))
-        full[wet] = coupling[used].T
-        answers = np.linalg.solve(self._matrix(state, self._step)[np.ix_(free, free)], full[free])
-        found = self.weight * (coupling[used] @ answers[wet[free]])
-        return full_matrix(found, used, self.n_unknowns)
+        return self._relief(state, self._at(state, self._time))
+
+    @property
+    def symmetric(self) -> bool:
+        """See `Effect.symmetric`: not where pressures that fall give way sooner."""
+        return False
+
+    def step_force(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.step_force`: pressures of the motion at the end, nowhere below zero.
+
+        What motion takes from a pressure it takes from that of the start as well, so that a joint
+        that opens gets no more work than it gave as it closed.
+        """
+        volume, time = self._opening(after).volume, after.time * self._second
+        end = self._solved(self._opened(before), volume, time)
+        last, still = (self._pressure(one.head) for one in (end, self._at(before, time)))
+        fallen = np.maximum(still - last, 0.0)
+        first = np.maximum(self._pressure(self._began.head) - fallen, 0.0)
+        weight, both = span.weight, (fallen > 0) & (first > 0)
+        force = self._push(before, weight * last + (1 - weight) * first)
+
+        def stiffness() -> csc_array:
+            return self._relief(before, end, np.where(both, 1.0, weight))
+
+        return StepForce(force, stiffness)
 
     def accepted(self, state: State) -> None:
-        """See `Effect.accepted`: solve for the heads with the apertures of the accepted state."""
+        """See `Effect.accepted`: the heads that acted at the end of the step."""
         time = state.time * self._second
         if time > self._began.time:
             self._end = self._at(state, time)
@@ -179,28 +203,66 @@ class JointStorage(JointWater):
         new._began = new._end = WaterStored(old.time, head, volume, old.taken)
         return new
 
+    def _pressure(self, head: Floats) -> Floats:
+        """Pressures (n,) of heads (n,): there is no suction (Pa)."""
+        return np.asarray(self.weight * np.maximum(head - self._level, 0.0))
+
+    def _push(self, state: State, pressure: Floats) -> Floats:
+        """Force (n_unknowns,) of pressures (n,) on the faces of joints."""
+        forces = self.sites.forces(state, pressure[self.sites.nodes])
+        return self.sites.interface.spread(state, forces)
+
+    def _relief(self, state: State, end: WaterStored, share: Floats | None = None) -> csc_array:
+        """Matrix (n_unknowns, n_unknowns) of the motion on the pressure at the end of a step.
+
+        With shares (n,) it is the derivative of so much of the pressures; without it is symmetric,
+        of nodes under pressure that respond to their volumes alone.
+        """
+        free = self._free(end.time)
+        wet = free & (end.head > self._level)
+        if not wet.any():
+            return csc_array((self.n_unknowns, self.n_unknowns))
+        moved = wet if share is None else free
+        step = step_between(self._began.time, end.time)
+        matrix = self._matrix(self._opened(state), end.head, step)
+        coupling = self._coupling(state)
+        used = np.flatnonzero(np.abs(coupling[moved]).any(axis=0))
+        some = np.where(moved[:, None], coupling[:, used], 0.0)
+        answers = np.linalg.solve(matrix[np.ix_(free, free)], some[free])
+        pressed = coupling[np.ix_(wet, used)]
+        if share is not None:
+            pressed = share[wet, None] * pressed
+        return full_matrix(self.weight * (pressed.T @ answers[wet[free]]), used, self.n_unknowns)
+
     def _at(self, state: State, time: float) -> WaterStored:
-        """Return the water at a time with the apertures of a state; cached."""
+        """Return the water at a time with the volumes of a state; cached."""
         known = self._found
         if known is None or known[0] is not state or known[1] is not self._began:
             known = None
         if known is None or known[2].time != time:
-            known = self._found = state, self._began, self._solved(state, time)
+            joints = self._start or self._opened(state)
+            found = self._solved(joints, self._volume(state), time)
+            known = self._found = state, self._began, found
         return known[2]
 
-    def _solved(self, state: State, time: float) -> WaterStored:
-        began = self._began
-        step = step_between(began.time, time)
-        matrix, volume = self._matrix(state, step), self._volume(state)
-        free = self._free(time)
+    def _solved(self, joints: OpenJoints, volume: Floats, time: float) -> WaterStored:
+        """Return the water at a time with volumes (n,), by the joints at the start of the step."""
+        began, level = self._began, self._level
+        step, free = step_between(began.time, time), self._free(time)
         head = began.head.copy()
         nodes, given = self.given(time / self._second)
         head[nodes] = given
-        load = self._store(state) * began.head - (volume - began.volume)
-        load = load - matrix[:, ~free] @ head[~free]
-        head[free] = np.linalg.solve(matrix[np.ix_(free, free)], load[free])
+        left = self._store(joints, began.head) * (began.head - level)
+        left -= volume - began.volume
+        for _ in range(PASSES):  # which nodes are under pressure
+            wet, matrix = head > level, self._matrix(joints, head, step)
+            load = left + self._store(joints, head) * level
+            beside = matrix[np.ix_(free, ~free)] @ head[~free]
+            head[free] = np.linalg.solve(matrix[np.ix_(free, free)], load[free] - beside)
+            if np.array_equal(wet, head > level):
+                break
         # The residual at prescribed heads is their inflow.
-        missing = matrix @ head - (self._store(state) * began.head - (volume - began.volume))
+        missing = matrix @ head - load
         taken = {
             one.name: began.taken.get(one.name, 0.0) + float(missing[one.nodes].sum())
             for one in self.prescribed
@@ -212,14 +274,29 @@ class JointStorage(JointWater):
         found[self.given(time / self._second)[0]] = False
         return found
 
-    def _matrix(self, state: State, step: float) -> Floats:
-        """Return ``M + dt G`` (n, n), in m2."""
-        joints = self._opened(state)
-        return np.asarray(np.diag(joints.store) + step * joints.flow)
+    @property
+    def _level(self) -> Floats:
+        """Elevations (n,) of the nodes (m)."""
+        return self.sites.places[:, 1]
 
-    def _store(self, state: State) -> Floats:
-        """Storage (n,) by a unit of head (m2); positive at nodes of closed joints, too."""
-        return self._opened(state).store
+    def _matrix(self, joints: OpenJoints, head: Floats, step: float) -> Floats:
+        """Return ``M + dt G`` (n, n) at heads (n,), in m2."""
+        return np.asarray(np.diag(self._store(joints, head)) + step * joints.flow)
+
+    def _store(self, joints: OpenJoints, head: Floats) -> Floats:
+        """Storage (n,) by a unit of head (m2) at heads (n,)."""
+        return np.where(head > self._level, joints.store, self._drained)
+
+    @cached_property
+    def _drained(self) -> Floats:
+        """Storage (n,) by a unit of head above the water: of joints as drawn (m2)."""
+        a, b = self.network.ends.T
+        height = np.maximum(np.abs(self._level[a] - self._level[b]) / 2, self._initial)
+        highest = np.zeros(self.network.n)
+        for end in (a, b):
+            np.maximum.at(highest, end, height)
+        whole = self._volumes(np.repeat(self._initial[:, None], 2, axis=1))
+        return np.asarray(np.maximum(whole, TIGHT * whole.max()) / highest)
 
     def _volume(self, state: State) -> Floats:
         """Volume (n,) of the joints at their nodes (m3), weighted as pressures are."""
@@ -233,30 +310,34 @@ class JointStorage(JointWater):
 
     def _opening(self, state: State) -> OpenJoints:
         aperture, n = super().apertures(state), self.network.n
-        one, other = aperture.T
-        length = self.network.length * self._thickness / 6
-        shares = np.stack([length * (2 * one + other), length * (one + 2 * other)], axis=1)
-        volume = np.bincount(self.network.ends.ravel(), shares.ravel(), n).astype(float)
-        store = self.weight / self._bulk * np.maximum(volume, 1e-9 * volume.max())
+        volume = self._volumes(aperture)
+        store = self.weight / self._bulk * np.maximum(volume, TIGHT * volume.max())
         a, b = self.network.ends.T
         flow, found = self.network.conductance(aperture) * self._thickness, np.zeros((n, n))
         for row, column, sign in ((a, a, 1.0), (b, b, 1.0), (a, b, -1.0), (b, a, -1.0)):
             np.add.at(found, (row, column), sign * flow)
         return OpenJoints(state, aperture, volume, np.asarray(store), found)
 
-    def _coupling(self, state: State, wet: Bools) -> Floats:
-        """Force (n_unknowns, k) of unit pressure at each wet node (m2)."""
-        sites, n = self.sites, self.network.n
+    def _volumes(self, aperture: Floats) -> Floats:
+        """Volumes (n,) at the nodes of joints with apertures (j, 2) at their ends (m3)."""
+        one, other = aperture.T
+        length = self.network.length * self._thickness / 6
+        shares = np.stack([length * (2 * one + other), length * (one + 2 * other)], axis=1)
+        return np.bincount(self.network.ends.ravel(), shares.ravel(), self.network.n).astype(float)
+
+    def _coupling(self, state: State) -> Floats:
+        """Force (n, n_unknowns) of a unit of pressure at each node (m2)."""
+        sites = self.sites
         piece = sites.interface.first.piece
         assert piece is not None
         unknowns, jump = sites.interface.rows(state)
         push = -sites.interface.area[:, None] * sites.interface.normal(state)
         along = np.einsum("mcl,mc->ml", jump, push)
-        found = np.zeros((n, self.n_unknowns))
+        found = np.zeros((self.network.n, self.n_unknowns))
         for end, share in enumerate((1 - sites.share, sites.share)):  # both ends of a joint
             node = sites.nodes[piece, end]
             np.add.at(found, (node[:, None], unknowns), share[:, None] * along)
-        return np.asarray(found[wet].T)
+        return found
 
     @property
     def _thickness(self) -> float:

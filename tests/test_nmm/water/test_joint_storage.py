@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import nmm
-from nmm.errors import SceneError
+from nmm.errors import NmmError, SceneError
 from nmm.testing import check_effect_of
 from nmm.testing.resumed.stopping import check_goes_on
 from nmm.verification.problems.water.joint_water import PressureInJoint
@@ -138,3 +138,94 @@ def test_water_of_a_joint_whose_block_leaves_goes_with_it():
     assert run.summary.status == "converged"
     assert len(flow.network.length) == 19
     assert flow.pressures(run.state, run.state.time).max() == pytest.approx(1e3, rel=1e-9)
+
+
+def pair(text, top=""):
+    """A block of 1 m on another that stands, over a joint of 0.2 mm with a head at its left end."""
+    return nmm.parse_scene(f"""
+    title = "two blocks"
+    plane = "strain"
+    {top}
+    [materials.rock]
+    young_modulus = "20 GPa"
+    poisson_ratio = 0.2
+    density = "2600 kg/m^3"
+    [interfaces.rock]
+    friction_angle = "30 deg"
+    aperture = "0.2 mm"
+    residual_aperture = "0.02 mm"
+    normal_stiffness = "10 GPa/m"
+    shear_stiffness = "5 GPa/m"
+    [contact]
+    [[joint_heads]]
+    name = "left"
+    point = [0, 1]
+    head = "1.5 m"
+    [[supports]]
+    name = "floor"
+    segment = [[0, 0], [1, 0]]
+    fix = ["x", "y"]
+    [[blocks]]
+    name = "below"
+    material = "rock"
+    vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    [[blocks]]
+    name = "above"
+    material = "rock"
+    vertices = [[0, 1], [1, 1], [1, 2], [0, 2]]
+    {text}""")
+
+
+@pytest.mark.parametrize("integrator", ["shi", "newmark"])
+@pytest.mark.parametrize("step", ["0.25 ms", "0.05 ms"])
+def test_a_block_that_settles_on_water_moves_no_faster_than_on_the_joint_alone(integrator, step):
+    """Its kinetic energy stays below ``W^2 / 2 k``, that of its weight at once on the springs.
+
+    Water is a thousand times stiffer than they are: its pressure comes and goes within steps.
+    """
+    text = f"""
+    [gravity]
+    [inertia]
+    [joint_flow]
+    transient = true
+    initial = "1.5 m"
+    [formulation.integrator]
+    type = "{integrator}"
+    step = "{step}"
+    """
+    run = nmm.run(pair(text, 'duration = "4 ms"'))
+    weight, stiffness = 2600 * 9.81, 10e9
+    softer = 1 / (1 / stiffness + 1 / 20e9)  # with half of both blocks
+    assert run.summary.status == "converged"
+    assert max(run.history["kinetic_energy"]) < weight**2 / 2 / softer
+
+
+def test_what_opens_faster_than_water_comes_in_is_void():
+    """A joint that opens at once takes what its head drives through it, not what it would suck in.
+
+    ``q = g w^3 / (12 mu) h / L`` through its whole aperture, and what opens beside the head itself:
+    half of the joint.
+    """
+    opened, seconds = 1e-3, 0.5
+    scene = pair(f"""
+    [joint_flow]
+    transient = true
+    initial = "1 m"
+    duration = {seconds}
+    [[supports]]
+    name = "lift"
+    segment = [[0, 2], [1, 2]]
+    fix = ["x", "y"]
+    displacement = [0, {opened}]
+    """)
+    flow = 9810 / 12e-3 * (2e-4 + opened) ** 3 * 0.5
+    taken = nmm.run(scene).history["transient joint flow:taken:left"][-1]
+    assert flow * seconds < opened / 2  # not yet full
+    # Blocks give way to 5 kPa by 1e-7 m; heads of voids lie below their nodes by some 1e-3 m.
+    assert taken == pytest.approx(flow * seconds + opened / 2, rel=2e-3)
+
+
+def test_a_full_matrix_that_memory_cannot_hold_is_refused(monkeypatch):
+    monkeypatch.setattr("nmm.water.full_matrix.BESIDE_CONTACT", 1e9)
+    with pytest.raises(NmmError, match=r"joint_flow\.transient: 12 unknowns, about 144 GB"):
+        nmm.run(pair('[joint_flow]\ntransient = true\ninitial = "1 m"\nduration = 1.0\n'))

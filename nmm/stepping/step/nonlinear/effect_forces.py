@@ -58,13 +58,13 @@ class EffectForces:
     def _line(self, name: str) -> tuple[Floats, csc_array]:
         """Force (n,) and matrix (n, n) of an effect in the equations of the step."""
         effect, n = self._plan.bent[name], self._n
+        force = np.zeros(n)
+        if defines(effect, "force"):  # before the matrix, which may depend on the end of the step
+            force, weight = effect.force(self._state, self._end), self._span.weight
+            if weight < 1 and not effect.steady:
+                begun = effect.force(self._state, Instant.of(self._state))
+                force = weight * force + (1 - weight) * begun
         matrix = effect.matrix(self._state) if defines(effect, "matrix") else csc_array((n, n))
-        if not defines(effect, "force"):
-            return np.zeros(n), matrix
-        force, weight = effect.force(self._state, self._end), self._span.weight
-        if weight < 1 and not effect.steady:
-            begun = effect.force(self._state, Instant.of(self._state))
-            force = weight * force + (1 - weight) * begun
         return force, matrix
 
     def at(self, increment: Floats, after: State | None) -> tuple[EffectPart, Mapping[str, Floats]]:
