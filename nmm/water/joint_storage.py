@@ -1,42 +1,32 @@
 """The effect: transient flow in joints, with storage by their opening and by compressible water.
 
-The volume ``V`` of water at a node is about half of that of each joint that ends there. A change of
-pressure ``dp`` stores ``V dp / K``, and an opening ``dV``. With the cubic law for the flow
-(Witherspoon and others 1980) the balance of a step is
+With the force ``C`` of unit pressures on the blocks, whose transpose gives the volume that their
+motion ``d`` opens, the balance of a step (`nmm.water.joint_balance`) is
 
-    M (h1 - h0) + dt G h1 = - (V - V0) - C^T d,    M = w V / K,
+    M (h1 - h0) + dt G h1 = - (V - V0) - C^T d.
 
-where ``G`` is the conductance with known apertures and ``C`` the force of unit pressures on the
-blocks, so that ``C^T d`` is the volume that their motion ``d`` opens. The force ``w C h1`` on the
-blocks is linear in ``d``; so the matrix ``w C (M + dt G)^-1 C^T`` is added to the stiffness, heads
-and motion are found together, and steps are stable however stiff the water is.
-
-There is no suction: a node whose head is below it stores ``M = V / H``, with the height ``H``
-of its joints, by draining or filling them: what opens faster than water comes in is void. Where a
-node loses or gains its pressure in a step the force is no longer linear, and the step is solved by
-Newton's method.
+The force ``w C h1`` on the blocks is linear in ``d``; so the matrix ``w C (M + dt G)^-1 C^T`` is
+added to the stiffness, heads and motion are found together, and steps are stable however stiff the
+water is. Where a node loses or gains its pressure in a step the force is no longer linear, and the
+step is solved by Newton's method.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
 from scipy.sparse import csc_array
 
-from integration.arrays import Bools, Floats
+from integration.arrays import Floats
+from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.state import State
 from nmm.diffusion.problem import step_between
 from nmm.effects.base import Instant, Setup, Span, StepForce
 from nmm.effects.change import Change
 from nmm.water.full_matrix import full_matrix, refuse_full
+from nmm.water.joint_balance import JointBalance, OpenJoints
 from nmm.water.joint_water import JointWater
-
-# Passes over which nodes are under pressure; the matrices are monotone, so that few are taken.
-PASSES = 50
-# Least share of the largest volume, so that nodes of closed joints store something.
-TIGHT = 1e-9
 
 
 @dataclass(frozen=True)
@@ -59,41 +49,16 @@ class WaterStored:
     taken: Mapping[str, float] = field(default_factory=dict)
 
 
-@dataclass(frozen=True)
-class OpenJoints:
-    """Volumes and conductances of the joints in a state.
-
-    Attributes
-    ----------
-    state
-        The state.
-    aperture
-        (j, 2) apertures at their ends (m).
-    volume
-        (n,) volumes of the joints at their nodes (m3).
-    store
-        (n,) storage by a unit of head (m2) at nodes under pressure.
-    flow
-        (n, n) conductance matrix ``G`` of the network (m2/s).
-    """
-
-    state: State
-    aperture: Floats
-    volume: Floats
-    store: Floats
-    flow: Floats
-
-
 class JointStorage(JointWater):
     """Transient flow in the joints of a scene."""
 
     name = "transient joint flow"
     _began: WaterStored
     _end: WaterStored
-    _bulk, _second = 2.2e9, 1.0
-    _time = 0.0
-    _open: OpenJoints | None = None
+    _balance: JointBalance
+    _open: KeptOfPlaces[OpenJoints]
     _start: OpenJoints | None = None
+    _second, _time = 1.0, 0.0
     _found: tuple[State, WaterStored, WaterStored] | None = None
 
     @classmethod
@@ -105,11 +70,14 @@ class JointStorage(JointWater):
         place = setup.scene.source.place("joint_flow", "transient")
         refuse_full(setup, place, "take fewer blocks, or steady flow")
         found = super().from_setup(setup)
-        found._bulk = table.bulk_modulus
+        level, thick = found.sites.places[:, 1], setup.model.thickness
+        squeeze = found.weight / table.bulk_modulus
+        found._balance = JointBalance(found.network, level, found._initial, thick, squeeze)
+        found._open = KeptOfPlaces(found._opened)
         found._second = 1.0 if table.duration is None else table.duration
         head = np.full(found.network.n, table.initial - setup.origin[1])
         begin = setup.start.time * found._second
-        found._began = WaterStored(begin, head, found._volume(setup.start))
+        found._began = WaterStored(begin, head, found._open.of(setup.start).volume)
         found._end = found._began
         return found
 
@@ -132,7 +100,7 @@ class JointStorage(JointWater):
         time = end.time * self._second
         if time == self._began.time:  # the force at the start of the step, whose duration stays
             return super().force(state, end)
-        self._time, self._start = time, self._opened(state)
+        self._time, self._start = time, self._open.of(state)
         return self._push(state, self._pressure(self._at(state, time).head))
 
     def matrix(self, state: State) -> csc_array:
@@ -150,8 +118,8 @@ class JointStorage(JointWater):
         What motion takes from a pressure it takes from that of the start as well, so that a joint
         that opens gets no more work than it gave as it closed.
         """
-        volume, time = self._opening(after).volume, after.time * self._second
-        end = self._solved(self._opened(before), volume, time)
+        volume, time = self._balance.volumes(super().apertures(after)), after.time * self._second
+        end = self._solved(self._open.of(before), volume, time)
         last, still = (self._pressure(one.head) for one in (end, self._at(before, time)))
         fallen = np.maximum(still - last, 0.0)
         first = np.maximum(self._pressure(self._began.head) - fallen, 0.0)
@@ -184,11 +152,12 @@ class JointStorage(JointWater):
         self._began, self._end = (WaterStored(*one) for one in carried)
 
     def apertures(self, state: State) -> Floats:
-        return self._opened(state).aperture
+        return self._open.of(state).aperture
 
     def forget(self) -> None:
         super().forget()
-        self._open = self._found = None
+        self._open.forget()
+        self._found = None
 
     def follow(self, change: Change) -> "JointStorage":
         """Return the water on the new model, with the heads of nodes that it shares."""
@@ -199,13 +168,13 @@ class JointStorage(JointWater):
         known = near <= 1e-9 * (1 + np.abs(self.sites.places).max())
         old = self._end
         head = np.where(known, old.head[nearest], new._began.head)
-        volume = new._volume(change.state)
+        volume = new._open.of(change.state).volume
         new._began = new._end = WaterStored(old.time, head, volume, old.taken)
         return new
 
     def _pressure(self, head: Floats) -> Floats:
         """Pressures (n,) of heads (n,): there is no suction (Pa)."""
-        return np.asarray(self.weight * np.maximum(head - self._level, 0.0))
+        return np.asarray(self.weight * np.maximum(head - self._balance.level, 0.0))
 
     def _push(self, state: State, pressure: Floats) -> Floats:
         """Force (n_unknowns,) of pressures (n,) on the faces of joints."""
@@ -218,13 +187,14 @@ class JointStorage(JointWater):
         With shares (n,) it is the derivative of so much of the pressures; without it is symmetric,
         of nodes under pressure that respond to their volumes alone.
         """
-        free = self._free(end.time)
-        wet = free & (end.head > self._level)
+        free = np.ones(self.network.n, dtype=bool)
+        free[self.given(end.time / self._second)[0]] = False
+        wet = free & self._balance.pressed(end.head)
         if not wet.any():
             return csc_array((self.n_unknowns, self.n_unknowns))
         moved = wet if share is None else free
         step = step_between(self._began.time, end.time)
-        matrix = self._matrix(self._opened(state), end.head, step)
+        matrix = self._balance.matrix(self._open.of(state), end.head, step)
         coupling = self._coupling(state)
         used = np.flatnonzero(np.abs(coupling[moved]).any(axis=0))
         some = np.where(moved[:, None], coupling[:, used], 0.0)
@@ -240,90 +210,25 @@ class JointStorage(JointWater):
         if known is None or known[0] is not state or known[1] is not self._began:
             known = None
         if known is None or known[2].time != time:
-            joints = self._start or self._opened(state)
-            found = self._solved(joints, self._volume(state), time)
+            now = self._open.of(state)
+            found = self._solved(self._start or now, now.volume, time)
             known = self._found = state, self._began, found
         return known[2]
 
     def _solved(self, joints: OpenJoints, volume: Floats, time: float) -> WaterStored:
         """Return the water at a time with volumes (n,), by the joints at the start of the step."""
-        began, level = self._began, self._level
-        step, free = step_between(began.time, time), self._free(time)
-        head = began.head.copy()
-        nodes, given = self.given(time / self._second)
-        head[nodes] = given
-        left = self._store(joints, began.head) * (began.head - level)
-        left -= volume - began.volume
-        for _ in range(PASSES):  # which nodes are under pressure
-            wet, matrix = head > level, self._matrix(joints, head, step)
-            load = left + self._store(joints, head) * level
-            beside = matrix[np.ix_(free, ~free)] @ head[~free]
-            head[free] = np.linalg.solve(matrix[np.ix_(free, free)], load[free] - beside)
-            if np.array_equal(wet, head > level):
-                break
-        # The residual at prescribed heads is their inflow.
-        missing = matrix @ head - load
+        began, given = self._began, self.given(time / self._second)
+        step = step_between(began.time, time)
+        parts = joints, began.head, volume - began.volume
+        head, inflow = self._balance.heads(*parts, given, step)
         taken = {
-            one.name: began.taken.get(one.name, 0.0) + float(missing[one.nodes].sum())
+            one.name: began.taken.get(one.name, 0.0) + float(inflow[one.nodes].sum())
             for one in self.prescribed
         }
         return WaterStored(time, head, volume, taken)
 
-    def _free(self, time: float) -> Bools:
-        found = np.ones(self.network.n, dtype=bool)
-        found[self.given(time / self._second)[0]] = False
-        return found
-
-    @property
-    def _level(self) -> Floats:
-        """Elevations (n,) of the nodes (m)."""
-        return self.sites.places[:, 1]
-
-    def _matrix(self, joints: OpenJoints, head: Floats, step: float) -> Floats:
-        """Return ``M + dt G`` (n, n) at heads (n,), in m2."""
-        return np.asarray(np.diag(self._store(joints, head)) + step * joints.flow)
-
-    def _store(self, joints: OpenJoints, head: Floats) -> Floats:
-        """Storage (n,) by a unit of head (m2) at heads (n,)."""
-        return np.where(head > self._level, joints.store, self._drained)
-
-    @cached_property
-    def _drained(self) -> Floats:
-        """Storage (n,) by a unit of head above the water: of joints as drawn (m2)."""
-        a, b = self.network.ends.T
-        height = np.maximum(np.abs(self._level[a] - self._level[b]) / 2, self._initial)
-        highest = np.zeros(self.network.n)
-        for end in (a, b):
-            np.maximum.at(highest, end, height)
-        whole = self._volumes(np.repeat(self._initial[:, None], 2, axis=1))
-        return np.asarray(np.maximum(whole, TIGHT * whole.max()) / highest)
-
-    def _volume(self, state: State) -> Floats:
-        """Volume (n,) of the joints at their nodes (m3), weighted as pressures are."""
-        return self._opened(state).volume
-
     def _opened(self, state: State) -> OpenJoints:
-        """Return the joints of a state; cached."""
-        if self._open is None or self._open.state is not state:
-            self._open = self._opening(state)
-        return self._open
-
-    def _opening(self, state: State) -> OpenJoints:
-        aperture, n = super().apertures(state), self.network.n
-        volume = self._volumes(aperture)
-        store = self.weight / self._bulk * np.maximum(volume, TIGHT * volume.max())
-        a, b = self.network.ends.T
-        flow, found = self.network.conductance(aperture) * self._thickness, np.zeros((n, n))
-        for row, column, sign in ((a, a, 1.0), (b, b, 1.0), (a, b, -1.0), (b, a, -1.0)):
-            np.add.at(found, (row, column), sign * flow)
-        return OpenJoints(state, aperture, volume, np.asarray(store), found)
-
-    def _volumes(self, aperture: Floats) -> Floats:
-        """Volumes (n,) at the nodes of joints with apertures (j, 2) at their ends (m3)."""
-        one, other = aperture.T
-        length = self.network.length * self._thickness / 6
-        shares = np.stack([length * (2 * one + other), length * (one + 2 * other)], axis=1)
-        return np.bincount(self.network.ends.ravel(), shares.ravel(), self.network.n).astype(float)
+        return self._balance.opened(super().apertures(state))
 
     def _coupling(self, state: State) -> Floats:
         """Force (n, n_unknowns) of a unit of pressure at each node (m2)."""
@@ -338,8 +243,3 @@ class JointStorage(JointWater):
             node = sites.nodes[piece, end]
             np.add.at(found, (node[:, None], unknowns), share[:, None] * along)
         return found
-
-    @property
-    def _thickness(self) -> float:
-        sites = self.sites
-        return float(sites.interface.area.sum() / sites.joints.length.sum())
