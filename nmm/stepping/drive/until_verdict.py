@@ -32,11 +32,11 @@ def until_verdict(
     at: P,
     step: Callable[[P], P | RunVerdict],
     recorder: Recorder,
-    stopped: str = "stopped in equilibrium",
+    stopped: str = "stopped, last in equilibrium",
 ) -> tuple[State, RunVerdict]:
     """Continue a run until a step ends it, or its budget is spent.
 
-    ``stopped`` says what a budget that is spent leaves.
+    ``stopped`` says what a budget that is spent leaves behind, once a step was accepted.
 
     Returns
     -------
@@ -47,8 +47,9 @@ def until_verdict(
             at = found
         verdict = found
     except BudgetSpentError as spent:
-        factor = at.state.load_factor
-        verdict = RunVerdict(SPENT, f"{stopped} at load factor {factor:.6g}: {spent}")
+        where = f"{stopped} at load factor {at.state.load_factor:.6g}"
+        how = where if recorder.steps else "stopped before the first equilibrium"
+        verdict = RunVerdict(SPENT, f"{how}: {spent}")
     except NmmError as fault:
         verdict = broken_off(recorder, f"load factor {at.state.load_factor:.6g}", fault)
     recorder.last(at.state, "load", at.contacts)

@@ -21,8 +21,8 @@ def at(factor):
 
 
 class Recorder:
-    def __init__(self):
-        self.lasts = []
+    def __init__(self, steps=3):
+        self.lasts, self.steps = [], steps
 
     def last(self, state, stage, contacts):
         self.lasts.append((state.load_factor, stage, contacts))
@@ -49,7 +49,7 @@ def test_the_state_before_the_verdict_is_the_last():
     assert recorder.lasts == [(3, "load", "contacts at 3")]
 
 
-@pytest.mark.parametrize("stopped", ["stopped in equilibrium", "stopped"])
+@pytest.mark.parametrize("stopped", ["stopped, last in equilibrium", "stopped"])
 def test_a_spent_budget_leaves_the_last_state_and_says_so(stopped):
     recorder = Recorder()
     state, found = until_verdict(at(0), counting(spent), recorder, stopped)
@@ -57,6 +57,11 @@ def test_a_spent_budget_leaves_the_last_state_and_says_so(stopped):
     assert found.sentence == f"{stopped} at load factor 3: 3 steps"
     assert state.load_factor == 3
     assert recorder.lasts == [(3, "load", "contacts at 3")]
+
+
+def test_a_budget_that_is_spent_before_any_step_leaves_no_equilibrium():
+    _, found = until_verdict(at(0), spent, Recorder(steps=0))
+    assert found.sentence == "stopped before the first equilibrium: 3 steps"
 
 
 def test_a_run_that_ends_at_once_is_left_where_it_began():
