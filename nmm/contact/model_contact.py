@@ -25,6 +25,7 @@ from nmm.contact.points.followed_joints import follow_joints
 from nmm.contact.solution.geometry import ContactGeometry
 from nmm.contact.solution.record import ContactCarried, ContactRecord, ContactSolution
 from nmm.contact.solution.step_bonds import StepBonds
+from nmm.frozen import with_parts
 
 if TYPE_CHECKING:
     from nmm.contact.detection.crossing import Motion
@@ -182,6 +183,11 @@ class ModelContact:
         """Keep the accepted contacts as the start of the next step, and return them."""
         self.record, done = self._candidates.accepted(self.record, self._sought, solved, state)
         return done
+
+    def seek_corners_anew(self) -> None:
+        """Let go of pairs held back: they are contacts again where a step lets them through."""
+        if self.record.crossed is not None:
+            self.record = with_parts(self.record, crossed=None)
 
     def restore(self, record: ContactRecord) -> None:
         """Go back to an earlier step, and start from there alone.

@@ -3,7 +3,8 @@
 Each step moves the blocks as if they started from rest (Shi 1988, kinetic factor 0; dynamic
 relaxation in the sense of Day 1965, implicit), until long steps fail (`pace`). The mass lends
 stiffness to what is not yet held and drops out of the state that is found: the last solution is
-one without it.
+one without it. Corners that a step let through are sought anew in the next one, as in statics: kept
+with their friction they hold up, in time alone, what no equilibrium without mass holds.
 """
 
 from collections.abc import Sequence
@@ -156,6 +157,8 @@ class _Search:
     def _take(self, found: Attempt, length: float) -> None:
         """Continue from the end of a step."""
         self.moving.accept(found)
+        if self.moving.plan.contact is not None:
+            self.moving.plan.contact.seek_corners_anew()
         self.lost += _taken(self.moving, self.state, found)
         goes = self.pace.speed(self.heavy, found.state.velocity)
         self.state = replace(found.state, velocity=goes, acceleration=np.zeros_like(goes))
