@@ -100,6 +100,9 @@ class Interaction:
     ) -> tuple[InteractionWeights, ForceWeights]:
         """Factors at points (m, 2) of elements (m,) with quadrature weights (m,) (m2)."""
         q, dq = self.fields.cutoff(points, self.radius)
+        inside = (q != 0) | dq.any(axis=1)  # elements reach beyond the domain
+        owner, points, weights = owner[inside], points[inside], weights[inside]
+        q, dq = q[inside], dq[inside]
         ahead, both = self.fields.tip.direction, self._auxiliary(owner, points)
         on_force = np.stack([-q[:, None] * (v @ ahead) for v in both], axis=1)
         on_slope = np.stack([-q[:, None, None] * v for v in both], axis=1)

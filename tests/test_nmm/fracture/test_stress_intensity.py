@@ -18,6 +18,8 @@ from nmm.constraints.springs import Springs
 from nmm.constraints.supports import Supports
 from nmm.effects.base import Effect
 from nmm.formulation import CoverTable, EnrichmentTable
+from nmm.fracture.auxiliary import Auxiliary
+from nmm.fracture.interaction import Interaction
 from nmm.fracture.stress_intensity import StressIntensity, stress_intensity
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
@@ -205,3 +207,17 @@ def test_every_tip_has_its_functions(cracks: list[list[list[float]]]) -> None:
 
 def test_a_domain_of_elements_about_the_tip_alone_gives_a_number() -> None:
     assert plate(0.3, 0.1, EnrichmentTable(radius=0.2), 0.1) == pytest.approx(1.0, abs=2e-2)
+
+
+def test_points_about_a_tip_that_count_nothing_are_left_out() -> None:
+    region = Polygons.from_vertices(
+        [np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])]
+    )
+    cover = CoverTable(type="triangles", size=0.25, degree=1)
+    model = solid(region, cover, [Elastic(1.0, 0.3)], "strain", cracks=[[[-1.5, 0], [0, 0]]])
+    radius, fields = 0.5, Auxiliary.of(np.zeros(2), np.array([1.0, 0.0]), KAPPA, SHEAR)
+    parts = [forces for _, forces in Interaction(model, fields, radius, 0).over_elements()]
+    points = np.concatenate([one.points for one in parts])
+    factors = np.concatenate([one.force for one in parts])
+    assert np.hypot(*points.T).max() < radius
+    assert np.abs(factors).sum(axis=(1, 2)).min() > 0
