@@ -92,6 +92,10 @@ class Control(ABC):
         """Return the equation of a step that goes so far."""
         return PathEquation(at.load, self.row(at), self.share(at), target)
 
+    def correction(self, at: PathState, step: Floats) -> PathEquation:
+        """Return the equation of a correction that ends a ``step`` (n,) and takes it no further."""
+        return self.path(at, 0.0)
+
 
 CONTROLS: Registry[type[Control]] = Registry(
     "control",

@@ -13,6 +13,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.controls.base import Control, PathState
+from nmm.controls.path_equation import PathEquation
 
 if TYPE_CHECKING:
     from nmm.scene.tables.loading.control import ControlTable
@@ -38,3 +39,8 @@ class Dissipation(Control):
 
     def share(self, at: PathState) -> float:
         return -float(at.load @ at.way) / 2
+
+    def correction(self, at: PathState, step: Floats) -> PathEquation:
+        # Unloading to the origin dissipates nothing either, however far: a correction is normal to
+        # its step instead (Ramm 1981).
+        return PathEquation(at.load, step, 0.0, 0.0)

@@ -52,6 +52,18 @@ def test_a_large_softening_beam_led_by_its_opening_passes_its_peak(cases: Module
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(("height", "peak"), [(100.0, 17.81), (200.0, 30.22)])
+def test_a_softening_beam_under_growing_load_fails_at_the_peak_of_its_opening(
+    cases: ModuleType, height: float, peak: float
+) -> None:
+    # The path beyond is followed by dissipation in steps of a hundredth of what is stored, which
+    # pass the peak of an opening that grows by 0.5 um by some 2e-3.
+    run = cases.nmm.run(cases.nmm.parse_scene(cases.beam(height, energy=100.0)))
+    assert run.summary.status == "failure_load", run.summary.sentence
+    assert run.summary.failure_factor == pytest.approx(peak, rel=4e-3)
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("increment", [9.51366, 1.75])
 def test_a_limit_point_beyond_an_unstable_equilibrium_is_told(
     cases: ModuleType, increment: float

@@ -230,7 +230,9 @@ class _Following:
             standing = trials.standing(now)
             if self._by_load(now, standing):
                 return trials.of_load(standing, 0.0).attempt
-            return trials.along(standing, self.control.path(standing, 0.0)).attempt
+            return trials.along(
+                standing, self.control.correction(standing, so_far.increment)
+            ).attempt
 
         return settled(self.stepper, attempt, correction)
 
