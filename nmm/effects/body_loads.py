@@ -64,6 +64,10 @@ class BodyLoads(Effect):
         return AppliedForces.of_densities(lambda elements, points: density[elements])
 
     @property
+    def dead(self) -> bool:
+        return True
+
+    @property
     def steady(self) -> bool:
         return all(load.steady for load in self._loads)
 

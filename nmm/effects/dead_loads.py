@@ -43,6 +43,11 @@ class DeadLoad:
             found += float(np.sum(self._lever * (turned(after) - turned(before))))
         return found + float(pushed[1] @ after.deformation - pushed[0] @ before.deformation)
 
+    @property
+    def has_moment(self) -> bool:
+        """Whether it has a moment about the centroid of some body."""
+        return self._lever is not None
+
     @cached_property
     def _force(self) -> Floats:
         """(B, 2) resultant of each body (N)."""

@@ -32,6 +32,11 @@ class Gravity(Effect):
         assert setup.scene.gravity is not None
         return cls(setup.model, np.array(setup.scene.gravity.acceleration))
 
+    @property
+    def dead(self) -> bool:
+        """See `Effect.dead`: where it has a moment; what acts at centroids turns with nothing."""
+        return self._volume.has_moment
+
     def force(self, state: State, end: Instant) -> Floats:
         """Return the load vector (n,) of the weight in the axes of the bodies."""
         return self._weights.of(state)

@@ -88,6 +88,10 @@ class Loads(Effect):
         return total
 
     @property
+    def dead(self) -> bool:
+        return True
+
+    @property
     def steady(self) -> bool:
         return all(load.steady for load in self.loads)
 

@@ -19,6 +19,14 @@ class ForceHooks:
         """Force (n,) that acts through the step from ``state`` to ``end``."""
         raise NotImplementedError
 
+    @property
+    def dead(self) -> bool:
+        """Whether the force keeps its direction in space on points that move with the bodies.
+
+        In time it then acts where bodies are half way through a step (`nmm.effects.half_way`).
+        """
+        return False
+
     def matrix(self, state: State) -> csc_array:
         """Symmetric matrix (n, n) added to the stiffness in the step from ``state``.
 

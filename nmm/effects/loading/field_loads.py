@@ -106,6 +106,10 @@ class FieldLoads(Effect):
         return cls(found, setup.model)
 
     @property
+    def dead(self) -> bool:
+        return True
+
+    @property
     def steady(self) -> bool:
         return all(load.steady for load in self.loads)
 

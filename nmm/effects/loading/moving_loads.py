@@ -93,6 +93,10 @@ class MovingLoads(Effect):
         return cls(setup.model, found)
 
     @property
+    def dead(self) -> bool:
+        return True
+
+    @property
     def steady(self) -> bool:
         return False
 

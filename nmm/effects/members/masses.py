@@ -33,6 +33,10 @@ class PointMasses(Effect):
         down = np.zeros(2) if gravity is None else np.array(gravity.acceleration)
         return cls(ends, _masses(setup)[:, None] * down)
 
+    @property
+    def dead(self) -> bool:
+        return True
+
     def force(self, state: State, end: Instant) -> Floats:
         """Return the load vector (n,) of the weights in the axes of the bodies."""
         rows = self._ends.points.rows

@@ -18,6 +18,7 @@ from integration.arrays import Floats
 from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.effects.base import Effect, Instant, Span, StepForce, defines
+from nmm.effects.half_way import HalfWay
 from nmm.errors import SolveError
 from nmm.model.effects_table import OWN
 from nmm.model.planning.named import NamedEffects
@@ -77,19 +78,22 @@ class Plan(NamedEffects):
             state = effect.begin(state)
         return state
 
-    def force(self, state: State, end: Instant) -> Floats:
+    def force(self, state: State, end: Instant, half: HalfWay | None = None) -> Floats:
         """Return the sum of all effects' forces (n,)."""
         total = np.zeros(len(state.deformation))
-        for part in self.forces(state, end):
+        for part in self.forces(state, end, half):
             total += part
         return total
 
-    def forces(self, state: State, end: Instant) -> Iterator[Floats]:
-        """Yield the force (n,) of each effect."""
+    def forces(self, state: State, end: Instant, half: HalfWay | None = None) -> Iterator[Floats]:
+        """Yield the force (n,) of each effect, dead ones ``half`` way where bodies turn."""
         shape = state.deformation.shape
         for name, effect in self.named("force"):
             start = perf_counter()
-            part = effect.force(state, end)
+            if half is None or not effect.dead:
+                part = effect.force(state, end)
+            else:
+                part = half.force(effect, state, end)
             self.spend(name, perf_counter() - start)
             if part.shape != shape:
                 raise SolveError(
@@ -121,6 +125,11 @@ class Plan(NamedEffects):
     def steady(self) -> bool:
         """Whether no force depends on the instant, in dynamics."""
         return all(effect.steady for effect in self.effects.values())
+
+    @cached_property
+    def dead(self) -> bool:
+        """Whether a force keeps its direction while bodies turn, beside weight at centroids."""
+        return any(effect.dead for effect in self.effects.values())
 
     def matrix(self, state: State, base: csc_array) -> csc_array:
         """Return ``base`` with all effects' matrices added; the same sum of the same parts."""

@@ -7,9 +7,10 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.assembly.motion import coordinate_rounding
+from nmm.assembly.motion import coordinate_rounding, move
 from nmm.assembly.state import State
 from nmm.effects.base import Instant, defines
+from nmm.effects.half_way import HalfWay
 from nmm.frozen import with_parts
 from nmm.integrators.base import Integrator
 from nmm.integrators.damping import Damping
@@ -52,7 +53,8 @@ class Assembly:
         """
         model, plan = self._solved.model, self._solved.plan
         line = Linearisation.linear(model, state) if matter is None else matter
-        parts = list(plan.forces(state, end))
+        half = self._half_way(state, step, rule)
+        parts = list(plan.forces(state, end, half))
         force = sum(parts, start=np.zeros(state.deformation.shape)) - line.force
         among, rests = None, step is None or plan.inertia is None
         if model.manifold.dependent or not rests:
@@ -71,7 +73,7 @@ class Assembly:
         given = Equations(
             state, end, step, rule, line.stiffness, force, symmetric=even, among=among
         )
-        return self._in_time(given, line, matter is None)
+        return self._in_time(given, line, matter is None, half)
 
     def _nothing_acts(self, parts: Sequence[Floats], force: Floats, matrix: csc_array) -> bool:
         """Whether a force (n,) is left of earlier loads: no more than places are rounded by.
@@ -85,12 +87,29 @@ class Assembly:
         rounded = coordinate_rounding(self._solved.model.manifold)
         return float(np.linalg.norm(force)) < gross(matrix, rounded)
 
-    def _in_time(self, static: Equations, line: Linearisation, linear: bool) -> Equations:
+    def _half_way(self, state: State, step: float | None, rule: Integrator) -> HalfWay | None:
+        """Return where dead forces act; None where they do as the step begins.
+
+        Under a rule that carries accelerations that is where it asks for forces.
+        """
+        plan, model = self._solved.plan, self._solved.model
+        if step is None or plan.inertia is None or not (plan.dead and rule.end_weight):
+            return None
+        spin = plan.inertia.through(state, step, rule.kinetic_factor)
+        if spin is None:
+            return None
+        share = rule.end_weight if rule.carries else 0.5
+        way = step * rule.kinetic_factor * state.velocity - plan.inertia.turned_less(spin, step)
+        return HalfWay(model, move(model, state, share * way))
+
+    def _in_time(
+        self, static: Equations, line: Linearisation, linear: bool, half: HalfWay | None
+    ) -> Equations:
         """Return the equations with inertia, over the factor of contact forces."""
         plan, rule, state, step = self._solved.plan, static.rule, static.state, static.step
         assert step is not None
         assert plan.inertia is not None
-        force, gain, applied = self._weighed(static, line, plan.steady and linear)
+        force, gain, applied = self._weighed(static, line, plan.steady and linear, half)
         velocity, mass = rule.kinetic_factor * state.velocity, plan.inertia.mass
         rates, factor = rule.momentum(velocity, state.acceleration, step), rule.mass_factor(step)
         spin, less = plan.inertia.through(state, step, rule.kinetic_factor), None
@@ -114,7 +133,7 @@ class Assembly:
         return with_parts(static, matrix=matrix, force=pushed / share, inertia=terms)
 
     def _weighed(
-        self, static: Equations, line: Linearisation, steady: bool
+        self, static: Equations, line: Linearisation, steady: bool, half: HalfWay | None
     ) -> tuple[Floats, Floats | None, Floats | None]:
         """Return the force (n,) as the integrator weighs both ends, and what of it grows.
 
@@ -126,7 +145,7 @@ class Assembly:
             return force, None, None
         gain: Floats | None = None
         applied: Floats | None = None
-        earlier = plan.force(state, Instant.of(state)) - line.start
+        earlier = plan.force(state, Instant.of(state), half) - line.start
         if not steady:
             gain = force - earlier
             if weight > 0.5:  # means of both ends do what effects say they do
