@@ -21,7 +21,8 @@ from nmm.water.network import JointNetwork
 
 # Passes over which nodes are under pressure; the matrices are monotone, so that few are taken.
 PASSES = 50
-# Least share of the largest volume, so that nodes of closed joints store something.
+# Least share of the largest volume, and least aperture of a joint as a share of its length, so that
+# nodes of closed joints store something.
 TIGHT = 1e-9
 
 
@@ -137,9 +138,9 @@ class JointBalance:
     def _drained(self) -> Floats:
         """Storage (n,) by a unit of head above the water: of joints as drawn (m2)."""
         a, b = self.network.ends.T
-        height = np.maximum(np.abs(self.level[a] - self.level[b]) / 2, self.drawn)
+        drawn = np.maximum(self.drawn, TIGHT * self.network.length)
+        height = np.maximum(np.abs(self.level[a] - self.level[b]) / 2, drawn)
         highest = np.zeros(self.network.n)
         for end in (a, b):
             np.maximum.at(highest, end, height)
-        whole = self.volumes(np.repeat(self.drawn[:, None], 2, axis=1))
-        return np.asarray(np.maximum(whole, TIGHT * whole.max()) / highest)
+        return np.asarray(self.volumes(np.repeat(drawn[:, None], 2, axis=1)) / highest)
