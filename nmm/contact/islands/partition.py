@@ -121,7 +121,7 @@ def _labels(
     parent = np.arange(n)
     for j in range(n):
         for k in range(pointers[j], pointers[j + 1]):
-            a, b = _root(parent, j), _root(parent, indices[k])
+            a, b = _root(parent, j), _root(parent, parent[indices[k]])
             parent[max(a, b)] = min(a, b)
     fixed = np.ones(n, dtype=np.bool_)  # at the root of a body: whether all of it is stiff
     for j in range(n):
@@ -130,7 +130,7 @@ def _labels(
     for c in range(m):
         for pointer, column, _ in rows:
             for k in range(pointer[c], pointer[c + 1]):
-                owner[c] = _joined(parent, fixed, owner[c], _root(parent, column[k]))
+                owner[c] = _joined(parent, fixed, owner[c], _root(parent, parent[column[k]]))
     return _numbered(parent, fixed, owner)
 
 

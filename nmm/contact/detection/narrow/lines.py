@@ -49,9 +49,9 @@ def _beside(shape: Shape, v: int, e: int, s: float, known: bool, rules: Rules) -
     """
     sharp = rules.end * shape[e].length + rules.rounding
     flush = rules.flush * thinner(shape, v, e) + rules.rounding
-    before = flush if known or covered_kink(shape, v, e, 0) else sharp
-    beyond = flush if known or covered_kink(shape, v, e, 1) else sharp
-    return bool(s >= -before and s <= shape[e].length + beyond)
+    # Beside the nearer end; an end that is written out is compiled once for each.
+    room = flush if known or covered_kink(shape, v, e, int(s > 0.0)) else sharp
+    return bool(s >= -room and s <= shape[e].length + room)
 
 
 @compiled
