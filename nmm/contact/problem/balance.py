@@ -11,6 +11,8 @@ from nmm.solvers.unchecked import magnitudes
 
 # Sums of some ten products each are rounded some ten times.
 ROUNDINGS = 16.0
+# Loads that are left of forces that cancel are sums over elements and points of some hundred terms.
+LOADS = 256.0
 # A balance that rounding leaves worse than this is none: the springs are too stiff to be told apart
 # from what they join.
 WORST = 1e-3
@@ -32,17 +34,22 @@ def relative_residual(
 
 
 def rounding(springs: CutSprings, increment: Floats) -> float:
-    """Relative out-of-balance force by rounding of the springs' own stretches; at most `WORST`.
+    """Relative out-of-balance force by rounding of forces and stretches; at most `WORST`.
 
     A gap ``g + N d`` is known to the last digit of its largest term, whatever it comes to. Times
-    a stiffness 1e10 times that of what moves, that digit is a millionth of the load.
+    a stiffness 1e10 times that of what moves, that digit is a millionth of the load. So is a force
+    ``K d`` of a body that moves as a whole on anchors of 1e-8 of its own stiffness, and a load that
+    is left of forces which cancel: where functions depend on one another nothing balances it.
     """
     problem, grain = springs.problem, ROUNDINGS * float(np.finfo(float).eps)
     rows, starts = (problem.normal_rows, problem.tangent_rows), (problem.gap, problem.slip)
     forces = np.stack(springs.forces(increment))
     sizes = np.abs(starts) + terms_of_stretches(*rows, increment)
     lost = np.where(forces != 0, grain * springs.stiffness * sizes, 0.0)
-    left = sum(magnitudes(part).T @ one for part, one in zip(rows, lost, strict=True))
+    left = grain * (magnitudes(problem.matrix) @ np.abs(increment))
+    if problem.among is not None:
+        left += LOADS / ROUNDINGS * grain * problem.among
+    left += sum(magnitudes(part).T @ one for part, one in zip(rows, lost, strict=True))
     held = pushed(*rows, *forces)
     inner = problem.matrix @ increment
     whole = max(norm(springs.weight * part) for part in (inner, held, problem.force))

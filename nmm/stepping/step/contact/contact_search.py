@@ -150,7 +150,7 @@ class ContactSearch:
             return None
         given = solved, equations.state, result.state, sought.midpoint
         half = self.contact.momentum.midpoint(*given)
-        if half is None and not self._misjudged(equations, result.state):
+        if half is None and not (len(sought.contacts) and self._misjudged(equations, result.state)):
             return None
         half = half or sought.midpoint
         forces = solved.answer.normal_force, solved.answer.shear_force

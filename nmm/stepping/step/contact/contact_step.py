@@ -99,7 +99,9 @@ class ContactStepSolver:
             further = self.search.again(*given) if good else None
             if further is None:
                 break
-            sought, equations = further, self._spinning(equations, result.state)
+            sought = further
+            if len(sought.contacts):  # in flight as without contact
+                equations = self._spinning(equations, result.state)
         self.search.keep(state, sought)
         if good and solved.rows is not None:
             result = self._completed(equations, solved, result, rest, near is not None)

@@ -235,20 +235,35 @@ def otherwise(text: str, keys: str, more: str = "", first: str = "") -> nmm.step
 
 
 @pytest.mark.parametrize(
-    ("keys", "more", "first"),
+    ("keys", "more", "first", "share"),
     [
-        ('materials = {plate = "soft"}\n', SOFT, ""),
-        ('remove = ["side"]\n', SIDE, ""),
-        ('heat = ["warm"]\n', HEAT, 'heat = ["cool"]\n'),
+        ('materials = {plate = "soft"}\n', SOFT, "", 2e-4),
+        # The side comes loose: nobody keeps account of work where relaxation brings it to rest.
+        ('remove = ["side"]\n', SIDE, "", 4e-3),
+        ('heat = ["warm"]\n', HEAT, 'heat = ["cool"]\n', 2e-4),
     ],
 )
-def test_what_a_stage_changes_is_not_freed_by_a_crack_that_stays(keys, more, first):
+def test_what_a_stage_changes_is_not_freed_by_a_crack_that_stays(keys, more, first, share):
     text = NOTCHED.format(notch=STRAIGHT, growth=1e-9, times="").replace("100.0", "1e9")
     run = otherwise(text.replace("density = 2000", EXPANDS, 1), keys, more, first)
-    changed = abs(run.summary.change_energy)
+    changed = max(abs(run.summary.change_energy), *run.history["strain_energy"])
+    assert run.summary.status == "converged"
     assert changed > 500.0
     # No crack grows; energies of a run are found to 1e-4 of what changed.
-    assert abs(run.summary.freed_energy) < 2e-4 * changed
+    assert abs(run.summary.freed_energy) < share * changed
+
+
+@pytest.mark.parametrize("share", [0.5, 0.2, 0.05])
+def test_a_cracked_plate_whose_loose_side_goes_finds_its_equilibrium_under_any_load(share):
+    """Its last corrections move by 1e-12 m: what dependent functions leave of them is rounding."""
+    text = NOTCHED.format(notch=STRAIGHT, growth=1e-9, times="").replace("100.0", "1e9")
+    for x, y in ((5e4, 1e6), (-2e3, 4e4)):
+        text = text.replace(
+            f"[{x:.0e}, {y:.0e}]".replace("e+0", "e"), f"[{share * x}, {share * y}]"
+        )
+    assert text.count(f"{share * 1e6}") == 1
+    run = otherwise(text, 'remove = ["side"]\n', SIDE)
+    assert run.summary.status == "converged"
 
 
 def test_a_crack_frees_as_much_in_a_body_that_has_expanded_freely():
