@@ -19,8 +19,7 @@ SPEC.loader.exec_module(scenes)
 # over tens of steps in which blocks slide; active sets end at the same tolerance. Other exact
 # solutions and those of statics are alike to rounding, which choices of a step's length amplify:
 # errors count by how far they are above the rounding of places, and of blocks nearly at rest they
-# are just above it. Lengths of steps then differ by 6e-8, and the times of a wall, more from step to
-# step, by 8e-6 of its run.
+# are just above it. Lengths of steps then differ by 6e-8, times of a wall by 8e-6 of its run.
 TOLERANCES = {
     "slope": 1e-5,
     "mesh": 1e-6,
