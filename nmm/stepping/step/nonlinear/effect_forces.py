@@ -103,7 +103,7 @@ class EffectForces:
         """
         beyond = zero = np.zeros(self._n)
         pull = sum((force for force, _ in self._lines.values()), start=zero)
-        if self._span.half and self._lined:
+        if self._span.half and self._span.weight and self._lined:
             still = self._pulls(zero, replace(self._state, time=self._end.time))
             whole = sum((one.force for one in still.values()), start=zero)
             beyond, pull = (pull - whole) / self._span.weight, whole
