@@ -61,13 +61,6 @@ def bricks(steps: int) -> Tables:
     return {**deepcopy(tables), "formulation": {"integrator": {"step": STEP}}}
 
 
-def rested(steps: int) -> Tables:
-    """Return the wall of bricks once all is at rest."""
-    found = bricks(steps)
-    still = {"name": "still", "duration": found.pop("duration")}
-    return {**found, "stages": [{"name": "rest"}, still]}
-
-
 def bar(steps: int) -> Tables:
     """Return a loaded bar of triangles, and a stone that nothing touches; in time."""
     return {
@@ -332,10 +325,7 @@ IDLE: dict[str, Idle] = {
         ),
         within=1e-8,
     ),
-    "a bolt in a wall at rest": Idle(("bars",), rested, _more(rested, bars=[_BOLT]), within=None),
-    "a bolt in a wall that settles": Idle(
-        ("bars",), bricks, _more(bricks, bars=[_BOLT]), within=None
-    ),
+    "a bolt in a wall at rest": Idle(("bars",), bricks, _more(bricks, bars=[_BOLT]), within=None),
     "a foundation of no stiffness": _idle(
         "foundations",
         bricks,

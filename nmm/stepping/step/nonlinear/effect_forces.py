@@ -96,18 +96,10 @@ class EffectForces:
         return EffectPart(beyond, lambda: self._beyond(pulls), total, rounding), memory
 
     def _first(self) -> EffectPart:
-        """Return the forces at no increment, with the tangents of the lines.
-
-        Forces at the middle of a step are off their lines even there where blocks are deformed:
-        by the moments of their arms.
-        """
-        beyond = zero = np.zeros(self._n)
+        """Return the forces at no increment, where effects are on their lines."""
+        zero = np.zeros(self._n)
         pull = sum((force for force, _ in self._lines.values()), start=zero)
-        if self._span.half and self._span.weight and self._lined:
-            still = self._pulls(zero, replace(self._state, time=self._end.time))
-            whole = sum((one.force for one in still.values()), start=zero)
-            beyond, pull = (pull - whole) / self._span.weight, whole
-        return EffectPart(beyond, partial(_nothing, self._n), pull, zero)
+        return EffectPart(zero, partial(_nothing, self._n), pull, zero)
 
     def _pulls(self, increment: Floats, after: State | None) -> dict[str, StepForce]:
         if not self._lines:
