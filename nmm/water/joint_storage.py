@@ -19,7 +19,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.assembly.kept import KeptOfPlaces
+from nmm.assembly.kept import Kept, KeptOfPlaces
 from nmm.assembly.state import State
 from nmm.diffusion.problem import step_between
 from nmm.effects.base import Instant, Setup, Span, StepForce
@@ -59,7 +59,7 @@ class JointStorage(JointWater):
     _open: KeptOfPlaces[OpenJoints]
     _start: OpenJoints | None = None
     _second, _time = 1.0, 0.0
-    _found: tuple[State, WaterStored, WaterStored] | None = None
+    _water: Kept[[State, float], WaterStored]
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -74,6 +74,7 @@ class JointStorage(JointWater):
         squeeze = found.weight / table.bulk_modulus
         found._balance = JointBalance(found.network, level, found._initial, thick, squeeze)
         found._open = KeptOfPlaces(found._opened)
+        found._water = Kept(found._at_volumes_of, found._step_to)
         found._second = 1.0 if table.duration is None else table.duration
         head = np.full(found.network.n, table.initial - setup.origin[1])
         begin = setup.start.time * found._second
@@ -91,7 +92,7 @@ class JointStorage(JointWater):
         time = time * self._second
         if time == self._began.time:
             return self._began.head
-        return self._end.head if time == self._end.time else self._at(state, time).head
+        return self._end.head if time == self._end.time else self._water.of(state, time).head
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the force (n_unknowns,) of the pressure at the end of a step without motion."""
@@ -101,11 +102,11 @@ class JointStorage(JointWater):
         if time == self._began.time:  # the force at the start of the step, whose duration stays
             return super().force(state, end)
         self._time, self._start = time, self._open.of(state)
-        return self._push(state, self._pressure(self._at(state, time).head))
+        return self._push(state, self._pressure(self._water.of(state, time).head))
 
     def matrix(self, state: State) -> csc_array:
         """Return minus the derivative of the pressure's force by the motion (n, n)."""
-        return self._relief(state, self._at(state, self._time))
+        return self._relief(state, self._water.of(state, self._time))
 
     @property
     def symmetric(self) -> bool:
@@ -120,7 +121,7 @@ class JointStorage(JointWater):
         """
         volume, time = self._balance.volumes(super().apertures(after)), after.time * self._second
         end = self._solved(self._open.of(before), volume, time)
-        last, still = (self._pressure(one.head) for one in (end, self._at(before, time)))
+        last, still = (self._pressure(one.head) for one in (end, self._water.of(before, time)))
         fallen = np.maximum(still - last, 0.0)
         first = np.maximum(self._pressure(self._began.head) - fallen, 0.0)
         weight, both = span.weight, (fallen > 0) & (first > 0)
@@ -135,7 +136,7 @@ class JointStorage(JointWater):
         """See `Effect.accepted`: the heads that acted at the end of the step."""
         time = state.time * self._second
         if time > self._began.time:
-            self._end = self._at(state, time)
+            self._end = self._water.of(state, time)
 
     def history(self, state: State) -> Mapping[str, float]:
         """Return the largest pressure (Pa) and aperture (m), and inflows since the start (m3)."""
@@ -150,6 +151,7 @@ class JointStorage(JointWater):
 
     def carry(self, carried: Any) -> None:
         self._began, self._end = (WaterStored(*one) for one in carried)
+        self._water.forget()
 
     def apertures(self, state: State) -> Floats:
         return self._open.of(state).aperture
@@ -157,7 +159,7 @@ class JointStorage(JointWater):
     def forget(self) -> None:
         super().forget()
         self._open.forget()
-        self._found = None
+        self._water.forget()
 
     def follow(self, change: Change) -> "JointStorage":
         """Return the water on the new model, with the heads of nodes that it shares."""
@@ -204,16 +206,14 @@ class JointStorage(JointWater):
             pressed = share[wet, None] * pressed
         return full_matrix(self.weight * (pressed.T @ answers[wet[free]]), used, self.n_unknowns)
 
-    def _at(self, state: State, time: float) -> WaterStored:
-        """Return the water at a time with the volumes of a state; cached."""
-        known = self._found
-        if known is None or known[0] is not state or known[1] is not self._began:
-            known = None
-        if known is None or known[2].time != time:
-            now = self._open.of(state)
-            found = self._solved(self._start or now, now.volume, time)
-            known = self._found = state, self._began, found
-        return known[2]
+    def _at_volumes_of(self, state: State, time: float) -> WaterStored:
+        """Return the water at a time with the volumes of a state."""
+        now = self._open.of(state)
+        return self._solved(self._start or now, now.volume, time)
+
+    def _step_to(self, state: State, time: float) -> tuple[int, int, float]:
+        """What tells the water of a step from that of another."""
+        return id(state), id(self._began), time
 
     def _solved(self, joints: OpenJoints, volume: Floats, time: float) -> WaterStored:
         """Return the water at a time with volumes (n,), by the joints at the start of the step."""

@@ -12,6 +12,7 @@ from nmm.errors import FormulationError
 from nmm.formulation import parse_formulation
 from nmm.scene import parse_scene
 from nmm.testing import check_local_functions
+from nmm.verification import text
 
 
 @dataclass(frozen=True)
@@ -33,37 +34,18 @@ class Twice(RigidStrain):
         return super().combination[:, [0, 1, 2, 2]]
 
 
-SCENE = """
-plane = "stress"
-thickness = 1
-[materials.rock]
-young_modulus = 10e9
-poisson_ratio = 0.2
-[[blocks]]
-material = "rock"
-vertices = [[0, 0], [2, 0], [2, 1], [0, 1]]
-[[supports]]
-name = "middle"
-point = [1, 0.5]
-fix = ["x", "y"]
-[[supports]]
-name = "no turn"
-point = [1.5, 0.5]
-fix = ["y"]
-[[loads]]
-name = "pull"
-kind = "edge"
-segment = [[2, 0], [2, 1]]
-traction = ["1 MPa", 0]
-[[loads]]
-name = "pull back"
-kind = "edge"
-segment = [[0, 0], [0, 1]]
-traction = ["-1 MPa", 0]
-[[monitors]]
-name = "corner"
-point = [2, 1]
-"""
+SCENE = text.scene(
+    'plane = "stress"',
+    [
+        text.material("rock", 10e9, 0.2, density=None),
+        text.block("strip", "rock", text.rectangle((0, 0), (2, 1))),
+        text.fixed_point("middle", (1, 0.5)),
+        text.fixed_point("no turn", (1.5, 0.5), "y"),
+        text.pulled_edge("pull", [[2, 0], [2, 1]], [1e6, 0]),
+        text.pulled_edge("pull back", [[0, 0], [0, 1]], [-1e6, 0]),
+        text.monitor("corner", (2, 1), "strip"),
+    ],
+)
 
 
 def formulation(functions):
