@@ -5,7 +5,7 @@ import numpy as np
 from covers.approximation.groups.physical_covers import PhysicalCovers
 from covers.approximation.groups.weighted_monomials import Shapes, Weights, polynomial_group
 from covers.approximation.manifold import Manifold
-from covers.approximation.rigid_modes import rigid_modes, stretch_modes
+from covers.approximation.rigid_modes import LinearMotions
 from covers.cutting.boundary import ring_edges
 from covers.local_functions.polynomials import Kinds, LocalFunctions
 from integration.arrays import Ints
@@ -46,8 +46,7 @@ def block_manifold(polygons: Polygons, regions: Ints, functions: LocalFunctions)
         cover_patch=blocks,
         cover_body=blocks,
         boundary=ring_edges(polygons, blocks),
-        rigid_modes=rigid_modes(*modes),
-        stretch_modes=stretch_modes(*modes),
+        motions=LinearMotions(*modes),
         body_centroid=centre,
         body_area=polygons.areas,
     )

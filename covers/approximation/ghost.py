@@ -1,11 +1,11 @@
 """Ghost penalty: stabilisation of small cut elements by the fields of their neighbours."""
 
 import numpy as np
-from scipy.sparse import coo_array, csc_array, eye_array, kron
 
 from covers.approximation.manifold import Manifold
 from integration.arrays import Floats, Ints
 from integration.rules import polygon_rule
+from integration.sparse import coo_array, csc_array, eye_array, kron
 
 
 def neighbours(manifold: Manifold, elements: Ints) -> tuple[Ints, Ints]:

@@ -9,14 +9,15 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import csc_array
 
 from covers.approximation.groups.element_group import ElementGroup
+from covers.approximation.rigid_modes import LinearMotions
 from covers.approximation.rows import Rows, stack_groups
 from covers.cutting.boundary import BoundaryEdges
 from covers.cutting.shared_edges import shared_edges
 from integration.arrays import Bools, Floats, Ints
 from integration.polygons import Polygons
+from integration.sparse import csc_array
 
 
 @dataclass(frozen=True)
@@ -39,11 +40,8 @@ class Manifold:
         (C,) mathematical patch and body of each physical cover.
     boundary
         Edges of the bodies.
-    rigid_modes
-        (n_unknowns, 3 B) unknowns of unit translations along x and y and of the unit linearised
-        rotation about the centroid, three columns for each body.
-    stretch_modes
-        (n_unknowns, B) unknowns of the field ``X - Xc`` of each body, with its centroid ``Xc``.
+    motions
+        Linear fields of whole bodies.
     body_centroid, body_area
         (B, 2) centroids (m), and (B,) areas (m2).
     dependent
@@ -72,8 +70,7 @@ class Manifold:
     cover_patch: Ints
     cover_body: Ints
     boundary: BoundaryEdges
-    rigid_modes: csc_array
-    stretch_modes: csc_array
+    motions: LinearMotions
     body_centroid: Floats
     body_area: Floats
     dependent: int = 0
@@ -84,6 +81,20 @@ class Manifold:
     enriched: int = 0
     mended: dict[str, int] = field(default_factory=dict)
     singular: Floats = field(default_factory=lambda: np.empty((0, 2)))
+
+    @cached_property
+    def rigid_modes(self) -> csc_array:
+        """Unknowns of rigid motions.
+
+        (n_unknowns, 3 B) unit translations along x and y and the unit linearised rotation about the
+        centroid, three columns for each body.
+        """
+        return self.motions.rigid
+
+    @cached_property
+    def stretch_modes(self) -> csc_array:
+        """(n_unknowns, B) unknowns of the field ``X - Xc`` of each body."""
+        return self.motions.stretch
 
     @property
     def n_unknowns(self) -> int:

@@ -7,7 +7,7 @@ import numpy as np
 from covers.approximation.dependence import dependent_functions
 from covers.approximation.grouping import Grouping
 from covers.approximation.manifold import Manifold
-from covers.approximation.rigid_modes import rigid_modes, stretch_modes
+from covers.approximation.rigid_modes import LinearMotions
 from covers.approximation.singular.carriers import Carriers
 from covers.approximation.singular.enrichment import Enrichment
 from covers.cutting.cut_cells import CutCells
@@ -61,8 +61,7 @@ def mesh_manifold(
         cover_patch=cut.cover_patch,
         cover_body=cut.cover_body,
         boundary=cut.boundary,
-        rigid_modes=rigid_modes(*modes),
-        stretch_modes=stretch_modes(*modes),
+        motions=LinearMotions(*modes),
         body_centroid=body_centroid,
         body_area=body_area,
         dependent=dependent,

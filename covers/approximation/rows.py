@@ -6,10 +6,10 @@ They are all that contact, supports, point loads and monitors need to know of co
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from integration.arrays import Floats, Ints
 from integration.contraction import contract
+from integration.sparse import csr_array
 
 
 @dataclass(frozen=True)

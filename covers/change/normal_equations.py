@@ -6,9 +6,9 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csc_array, diags_array, eye_array
 
 from integration.arrays import Floats
+from integration.sparse import csc_array, diags_array, eye_array
 
 # Regularisation of a matrix of unit diagonal: far below its eigenvalues of independent functions,
 # and removed by iterative refinement.

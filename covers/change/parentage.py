@@ -10,13 +10,13 @@ from functools import cached_property
 
 import numpy as np
 import shapely
-from scipy.sparse import coo_array, csr_array
 
 from covers.approximation.manifold import Manifold
 from covers.change.relation import Relation, identity
 from covers.cutting.boundary import BoundaryEdges
 from integration.arrays import Bools, Floats, Ints
 from integration.polygons import Polygons
+from integration.sparse import coo_array, csr_array
 
 # Overlaps below this share of the smaller of two elements are rounding of vertices.
 ROUNDING = 1e-12

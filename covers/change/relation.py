@@ -4,9 +4,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array
 
 from integration.arrays import Floats, Ints
+from integration.sparse import coo_array, csr_array
 
 
 @dataclass(frozen=True)

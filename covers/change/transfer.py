@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import coo_array, csc_array, csr_array, diags_array
 
 from covers.approximation.manifold import Manifold
 from covers.approximation.rows import Rows
@@ -21,6 +20,7 @@ from covers.change.normal_equations import NormalEquations
 from covers.change.parentage import Parentage
 from integration.arrays import Bools, Floats, Ints
 from integration.rules import PointRule, polygon_rule
+from integration.sparse import coo_array, csc_array, csr_array, diags_array
 
 # Share of the mass, scaled to the stiffness, that makes rigid motions unique in the projection of
 # strains; iteration removes its effect.

@@ -4,10 +4,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats
 from integration.contraction import contract
+from integration.sparse import csc_array, csr_array
 from nmm.assembly.elements import element_matrices
 from nmm.assembly.elements.solid import Solid
 from nmm.assembly.projected_volumes.excess import excess, held_pressures

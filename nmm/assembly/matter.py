@@ -9,10 +9,10 @@ from functools import cached_property
 from typing import ClassVar, Self
 
 import numpy as np
-from scipy.sparse import csc_array
 
 from covers.approximation.manifold import Manifold
 from integration.arrays import Floats, Ints
+from integration.sparse import csc_array
 from nmm.assembly.kept import KeptOfArray
 from nmm.assembly.laws_at_points import INITIAL, STRESS, SWELLING, LawsAtPoints
 from nmm.assembly.stress_points import StressPoints, nearest

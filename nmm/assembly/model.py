@@ -5,9 +5,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
-from scipy.sparse import csc_array
 
 from integration.arrays import Floats, Ints
+from integration.sparse import csc_array
 from nmm.assembly.elastic_solid import ElasticSolid
 from nmm.assembly.elements import element_matrices
 from nmm.assembly.kept import KeptOfStates

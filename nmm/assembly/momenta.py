@@ -1,11 +1,11 @@
 """Mass, momentum and angular momentum of the bodies of a model."""
 
 import numpy as np
-from scipy.sparse import coo_array, csc_array, csr_array
 
 from covers.approximation.own_rule import own_rule
 from integration.arrays import Floats
 from integration.plane_vectors import counterclockwise, cross
+from integration.sparse import coo_array, csc_array, csr_array
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 

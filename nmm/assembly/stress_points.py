@@ -6,13 +6,13 @@ from functools import cached_property
 from typing import Self
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array
 
 from covers.approximation.groups.element_group import ElementGroup
 from covers.approximation.manifold import Manifold
 from integration.arrays import Bools, Floats, Ints
 from integration.permutations import inverse
 from integration.rules import PointRule
+from integration.sparse import csc_array, csr_array
 from nmm.assembly.elements.blocks import Part, assemble
 from nmm.solvers.unchecked import made_of, product
 

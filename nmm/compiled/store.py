@@ -42,8 +42,10 @@ class KeptCode:
     def load_overload(self, types: Any, target: Any) -> Any:
         """Return what is kept for these types of arguments, or nothing."""
         from numba.core.compiler import CompileResult
+        from numba.core.runtime.nrt import rtsys
 
-        target.refresh()
+        # All of numba's types and functions, which `refresh` imports, are for what it compiles.
+        rtsys.initialize(target)
         name = self._file(types, target.codegen())
         for folder in folders():
             # Types of arguments may have moved to another module since.

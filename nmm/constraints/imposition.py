@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from integration.arrays import Bools, Floats, Ints
+from integration.sparse import csr_array
 from nmm.assembly.model import Model
 from nmm.assembly.places import Place
 from nmm.assembly.state import State

@@ -4,10 +4,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from covers.approximation.rows import Rows
 from integration.arrays import Bools, Floats, Ints
+from integration.sparse import csr_array
 from nmm.assembly.places import Place
 from nmm.assembly.state import State, rotation_matrices
 from nmm.effects.base import Instant

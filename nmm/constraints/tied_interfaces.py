@@ -10,9 +10,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array, vstack
 
 from integration.arrays import Floats, Ints
+from integration.sparse import csc_array, csr_array, vstack
 from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.model import Model
 from nmm.assembly.motion import middle

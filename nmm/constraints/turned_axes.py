@@ -5,9 +5,9 @@ it keeps the angular momentum of two bodies that are tied.
 """
 
 import numpy as np
-from scipy.sparse import bsr_array, csr_array, eye_array
 
 from integration.arrays import Floats
+from integration.sparse import bsr_array, csr_array, eye_array
 from nmm.assembly.model import Model
 from nmm.assembly.state import State, rotation_matrices
 from nmm.constraints.imposition import Imposition

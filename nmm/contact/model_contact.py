@@ -9,29 +9,29 @@ from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from covers.change.parentage import Parentage
 from integration.arrays import Bools, Floats, Ints
+from integration.sparse import csr_array
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
-from nmm.contact.candidates.candidates import Candidates
-from nmm.contact.candidates.held_back import Crossed
-from nmm.contact.detection.contacts import Contacts
 from nmm.contact.detection.tolerances import FIRST_REACH
 from nmm.contact.parts import ContactParts
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.followed_joints import follow_joints
-from nmm.contact.solution.geometry import ContactGeometry
 from nmm.contact.solution.record import ContactCarried, ContactRecord, ContactSolution
 from nmm.contact.solution.step_bonds import StepBonds
 from nmm.frozen import with_parts
 
 if TYPE_CHECKING:
+    from nmm.contact.candidates.candidates import Candidates
+    from nmm.contact.candidates.held_back import Crossed
+    from nmm.contact.detection.contacts import Contacts
     from nmm.contact.detection.crossing import Motion
     from nmm.contact.laws.laid_under_stress import StressIn
     from nmm.contact.problem.step_problem import Limits
     from nmm.contact.solution.driver import ContactSolver
+    from nmm.contact.solution.geometry import ContactGeometry
     from nmm.contact.solution.momentum import Momentum
     from nmm.contact.solution.steps import ContactSteps
 
@@ -82,11 +82,24 @@ class ModelContact:
         book = replace(book, points=points)
         self.laws.refuse_soft(book.points.take(~book.points.tied))
         self.record, self._unbonded = ContactRecord(book), book.broken
-        self.geometry = ContactGeometry(model, sides, book.points, parts.bends, parts.trace_space)
-        self.model, self._parts = model, parts
-        ways = parts.keeps_energy, parts.enforcement.ahead
-        self._candidates = Candidates(self.partners, self.laws, self.geometry, *ways)
+        self.model, self._parts, self._first = model, parts, book.points
         self._sought: tuple[Contacts | None, Crossed | None] = None, None
+
+    @cached_property
+    def geometry(self) -> "ContactGeometry":
+        """Rows of contact points."""
+        from nmm.contact.solution.geometry import ContactGeometry
+
+        bends, traces = self._parts.bends, self._parts.trace_space
+        return ContactGeometry(self.model, self.partners.sides, self._first, bends, traces)
+
+    @cached_property
+    def _candidates(self) -> "Candidates":
+        """What seeks the contact points of a step."""
+        from nmm.contact.candidates.candidates import Candidates
+
+        ways = self._parts.keeps_energy, self._parts.enforcement.ahead
+        return Candidates(self.partners, self.laws, self.geometry, *ways)
 
     @cached_property
     def momentum(self) -> "Momentum":
@@ -158,7 +171,7 @@ class ModelContact:
         state: State,
         reach: float,
         step: float | None = None,
-        crossed: Crossed | None = None,
+        crossed: "Crossed | None" = None,
     ) -> ContactPoints:
         """Return the contact points of a step; see `Candidates.sought`."""
         found, points = self._candidates.sought(self.record, state, reach, step, crossed)

@@ -4,10 +4,10 @@ from functools import cached_property
 from typing import Self
 
 import numpy as np
-from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from integration.contraction import some
+from integration.sparse import csc_array
 from nmm.assembly.applied_forces import AppliedForces
 from nmm.assembly.kept import KeptOfStates
 from nmm.assembly.model import Model
@@ -38,10 +38,16 @@ class Inertia(Effect):
     def __init__(self, model: Model, axes_turn: bool = True) -> None:
         self._model = model
         self._axes_turn = axes_turn
-        self.mass: csc_array = model.mass
+        if model.lumped:  # refused here where it is not positive
+            assert self.mass is not None
         self._spins = KeptOfStates(self._spin)
         self._outwards = KeptOfStates(self._centrifugal)
         self._forces = KeptOfStates(self._force)
+
+    @cached_property
+    def mass(self) -> csc_array:
+        """Mass (n, n) of the unknowns (kg)."""
+        return self._model.mass
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:

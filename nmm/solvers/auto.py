@@ -3,8 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
-from scipy.sparse import csc_array
-
+from integration.sparse import csc_array
 from nmm.solvers.dense import Dense
 from nmm.solvers.factor import Decomposition
 from nmm.solvers.libraries.superlu import DefiniteSolver, SuperLU

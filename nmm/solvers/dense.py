@@ -5,9 +5,9 @@ from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import csc_array
 
 from integration.arrays import Floats
+from integration.sparse import csc_array
 from nmm.solvers.factor import RankDeficientError
 from nmm.solvers.linear import LinearSolver
 

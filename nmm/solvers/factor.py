@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from typing import Protocol, Self
 
 import numpy as np
-from scipy.sparse import csc_array
 
 from integration.arrays import Floats
+from integration.sparse import csc_array
 from nmm.errors import SolveError
 from nmm.solvers.draws import same_draws
 from nmm.solvers.known import known_load

@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.sparse import csc_array
 
 from integration.arrays import Floats
+from integration.sparse import csc_array
 from nmm.solvers.norm import norm
 from nmm.solvers.unchecked import magnitudes
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Self
 
 import numpy as np
-from scipy.sparse import csc_array
 
 from integration.arrays import Floats
+from integration.sparse import csc_array
 from nmm.registry import Registry
 from nmm.solvers.factor import Decomposition as Decomposition
 from nmm.solvers.factor import Factor as Factor
@@ -50,7 +50,8 @@ class LinearSolver(ABC):
         SolveError
             When an entry is not finite.
         """
-        short = matrix.indices.dtype == np.int32 if isinstance(matrix, csc_array) else False
+        compressed = getattr(matrix, "format", "") == "csc"
+        short = compressed and matrix.indices.dtype == np.int32
         if short and matrix.has_sorted_indices:
             return Factor.of(self, matrix)
         found = csc_array(matrix)

@@ -1,9 +1,9 @@
 """Systems with conditions held by multipliers, zeros on the diagonal, and their scaling."""
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array, hstack, vstack
 
 from integration.arrays import Floats
+from integration.sparse import csc_array, csr_array, hstack, vstack
 from nmm.solvers.scaling import ruiz_scale
 from nmm.solvers.unchecked import largest
 

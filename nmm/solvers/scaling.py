@@ -3,9 +3,9 @@
 import sys
 
 import numpy as np
-from scipy.sparse import csc_array
 
 from integration.arrays import Floats
+from integration.sparse import csc_array
 from nmm.solvers.unchecked import largest, made_of
 
 

@@ -4,23 +4,48 @@ A step multiplies by some twenty matrices and makes half a dozen, of blocks as f
 them takes ten times as long as the product. Results agree with those of scipy to the last digit.
 """
 
+from collections.abc import Callable
 from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import _sparsetools, csc_array, csr_array
 
 from integration.arrays import Floats
+from integration.sparse import csc_array, csr_array
 
 Matrix = TypeVar("Matrix", csc_array, csr_array)
-PRODUCTS = {csr_array: _sparsetools.csr_matvec, csc_array: _sparsetools.csc_matvec}
+
+
+class _Products(dict[type, Callable[..., None]]):
+    """Compiled products of scipy by the kind of matrix."""
+
+    def __missing__(self, kind: type) -> Callable[..., None]:
+        from scipy.sparse import _sparsetools, csc_array, csr_array
+
+        self[csr_array], self[csc_array] = _sparsetools.csr_matvec, _sparsetools.csc_matvec
+        if kind not in self:
+            raise KeyError(kind)
+        return self[kind]
+
+
+class _Empty(dict[Any, tuple[Any, dict[str, Any]]]):
+    """Kinds of matrices with what one without entries holds."""
+
+    def __missing__(self, kind: Any) -> tuple[Any, dict[str, Any]]:
+        made = kind((1, 1))
+        self[kind] = type(made), vars(made)
+        return self[kind]
+
+
+_PRODUCTS, _EMPTY = _Products(), _Empty()
 
 
 def product(matrix: csc_array | csr_array, vector: Floats) -> Floats:
     """Return ``matrix @ vector`` (n,) in floating-point numbers."""
     height, width = matrix.__dict__["_shape"]
     found = np.zeros(height)
-    PRODUCTS[type(matrix)](height, width, matrix.indptr, matrix.indices, matrix.data, vector, found)
+    given = matrix.indptr, matrix.indices, matrix.data, vector, found
+    _PRODUCTS[type(matrix)](height, width, *given)
     return found
 
 
@@ -49,12 +74,8 @@ def made_of(
     shape: tuple[int, int],
 ) -> Matrix:
     """Return a compressed matrix of arrays that fit each other, which it keeps."""
-    made = kind.__new__(kind)
+    true, empty = _EMPTY[kind]
+    made: Matrix = true.__new__(true)
     parts = {"data": data, "indices": indices, "indptr": indptr, "_shape": shape}
-    made.__dict__.update(_EMPTY[kind] | parts)
+    made.__dict__.update(empty | parts)
     return made
-
-
-_EMPTY: dict[type, dict[str, Any]] = {
-    kind: kind((1, 1)).__dict__ for kind in (csc_array, csr_array)
-}

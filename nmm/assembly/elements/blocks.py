@@ -9,9 +9,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import bsr_array, coo_array, csc_array, csr_array
 
 from integration.arrays import Floats, Ints
+from integration.sparse import bsr_array, coo_array, csc_array, csr_array
 
 
 @dataclass(frozen=True)

@@ -3,11 +3,11 @@
 from collections.abc import Callable
 
 import numpy as np
-from scipy.sparse import csc_array
 
 from covers.approximation.groups.element_group import ElementGroup
 from covers.approximation.manifold import Manifold
 from integration.arrays import Floats, Ints
+from integration.sparse import csc_array
 from nmm.assembly.elements.blocks import Part, assemble
 
 # From a group, shapes (m,) and material (m, ...) to the matrices (m, n, n) of such elements.

@@ -1,9 +1,9 @@
 """A lumped mass must not be negative in any cover."""
 
 import numpy as np
-from scipy.sparse import csc_array
 
 from integration.arrays import Floats, Ints
+from integration.sparse import csc_array
 from nmm.errors import FormulationError
 
 # Least eigenvalue of the mass of a cover, of unit diagonal, that is zero but for rounding: that of

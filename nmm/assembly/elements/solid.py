@@ -5,13 +5,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array, diags_array
 
 from covers.approximation.groups.element_group import ElementGroup
 from covers.approximation.manifold import Manifold
 from covers.cutting.cut_cells import CutCells
 from integration.arrays import Floats
 from integration.contraction import contract
+from integration.sparse import csc_array, csr_array, diags_array
 from nmm.assembly.elements import element_matrices
 from nmm.assembly.elements.element_sums import ElementMatrices, summed_matrix, summed_vector
 from nmm.assembly.elements.lumping import check_positive

@@ -4,12 +4,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array
 
 from covers.approximation.groups.element_group import ElementGroup
 from covers.approximation.manifold import Manifold
 from integration.arrays import Floats, Ints
 from integration.monomials import count
+from integration.sparse import coo_array, csr_array
 from nmm.assembly.projected_volumes.patch_inverse import inverse_roots
 from nmm.assembly.projected_volumes.pressures import Pressures
 

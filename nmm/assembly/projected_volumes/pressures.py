@@ -15,10 +15,10 @@ of degree 0 it is the averaged nodal pressure of Bonet and Burton (1998), which 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array
 
 from covers.approximation.manifold import Manifold
 from integration.arrays import Floats, Ints
+from integration.sparse import coo_array, csr_array
 
 
 @dataclass(frozen=True)

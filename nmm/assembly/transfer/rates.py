@@ -4,11 +4,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from covers.change.transfer import Transfer, by_body
 from integration.arrays import Floats
 from integration.plane_vectors import cross
+from integration.sparse import csr_array
 from nmm.assembly.model import Model
 from nmm.assembly.momenta import momenta
 

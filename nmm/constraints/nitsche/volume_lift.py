@@ -16,9 +16,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Floats, Ints
+from integration.sparse import csc_array, csr_array, diags_array
 from nmm.assembly.model import Model
 
 # Of interfaces: both sides of glue and of sub-blocks may share a patch, and supports take a half.

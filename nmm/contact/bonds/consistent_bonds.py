@@ -11,11 +11,11 @@ from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from covers.approximation.rows import row_matrix
 from integration.arrays import Bools, Floats, Ints
 from integration.plane_vectors import clockwise
+from integration.sparse import csr_array
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt

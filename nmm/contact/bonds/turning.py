@@ -7,9 +7,9 @@ penalty. Where tractions vary along a joint they answer both parts, and the pena
 """
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from integration.arrays import Bools, Floats, Ints
+from integration.sparse import csr_array
 from nmm.contact.points.contact_points import TIED, ContactPoints
 
 

@@ -4,10 +4,10 @@ Joints (shared edges whose interface has strength or stiffness) are followed fro
 """
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from integration.arrays import Bools, Ints
 from integration.contraction import largest
+from integration.sparse import csr_array
 from nmm.assembly.state import State
 from nmm.contact.candidates.held_back import Crossed, held_back, joined, pushing
 from nmm.contact.candidates.partners import Partners

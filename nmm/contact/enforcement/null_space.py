@@ -9,9 +9,9 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats, Ints, same
+from integration.sparse import csc_array, csr_array
 from nmm.contact.problem.row_products import compressed, pushed
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform

@@ -4,9 +4,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from integration.arrays import Floats
+from integration.sparse import csr_array
 from nmm.assembly.state import Frames
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints

@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats
+from integration.sparse import csc_array, csr_array
 from nmm.compiled import compiled, place
 from nmm.solvers.unchecked import magnitudes
 

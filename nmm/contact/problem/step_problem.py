@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Bools, Floats, Ints, same
+from integration.sparse import csc_array, csr_array
 from nmm.contact.problem.contact_state import ContactState
 from nmm.contact.problem.residual_kernel import weighted
 from nmm.contact.problem.row_products import Compressed, along, compressed

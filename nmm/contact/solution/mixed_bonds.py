@@ -21,9 +21,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Floats, Ints
+from integration.sparse import csc_array, csr_array, diags_array
 from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.contact.bonds.consistent_bonds import ConsistentBonds

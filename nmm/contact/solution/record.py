@@ -2,17 +2,19 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from integration.arrays import Floats, Ints
-from nmm.contact.detection.contacts import Contacts
 from nmm.contact.points.contact_points import ContactPoints, concatenate
-from nmm.contact.points.contact_rows import ContactRows
-from nmm.contact.points.joint_book import JointBook
-from nmm.contact.problem.step_problem import StepAnswer
 from nmm.frozen import MadeOnce
+
+if TYPE_CHECKING:
+    from nmm.contact.detection.contacts import Contacts
+    from nmm.contact.points.contact_rows import ContactRows
+    from nmm.contact.points.joint_book import JointBook
+    from nmm.contact.problem.step_problem import StepAnswer
 
 Breaking = Literal["all", "worst", "stop"]
 """Which bonds that cannot hold break at a time; at "stop" none, and the step is given up."""
@@ -52,12 +54,12 @@ class ContactSolution:
     """
 
     contacts: ContactPoints
-    answer: StepAnswer
+    answer: "StepAnswer"
     passes: int
     loss: float
     stopped: bool = False
     sliding: Floats = field(default_factory=lambda: np.zeros(0))
-    rows: ContactRows | None = None
+    rows: "ContactRows | None" = None
     between: float = 0.0
     missed: Floats | None = None
     broken: "BrokenBonds | None" = None
@@ -105,8 +107,8 @@ class ContactRecord:
         pass, and that pressed.
     """
 
-    book: JointBook
-    found: Contacts | None = None
+    book: "JointBook"
+    found: "Contacts | None" = None
     known: ContactPoints | None = None
     stored: float = 0.0
     crossed: tuple[Ints, Ints] | None = None

@@ -3,9 +3,8 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from scipy.sparse import csc_array
-
 from integration.arrays import Floats
+from integration.sparse import csc_array
 from nmm.contact.enforcement.null_space import NullSpace
 from nmm.contact.solution.record import Breaking, BrokenBonds
 from nmm.solvers.linear import LinearSolver

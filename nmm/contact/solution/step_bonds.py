@@ -2,20 +2,23 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from integration.arrays import Bools, Floats
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.contact.bonds.consistent_bonds import ConsistentBonds
-from nmm.contact.bonds.tied_step import TiedBonds
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.failing_bonds import overload
 from nmm.contact.points.contact_points import ContactPoints
-from nmm.contact.points.contact_rows import ContactRows
-from nmm.contact.problem.step_problem import StepAnswer
-from nmm.contact.solution.mixed_bonds import MixedBonds
-from nmm.contact.solution.request import StepRequest
+
+if TYPE_CHECKING:
+    from nmm.contact.bonds.tied_step import TiedBonds
+    from nmm.contact.points.contact_rows import ContactRows
+    from nmm.contact.problem.step_problem import StepAnswer
+    from nmm.contact.solution.mixed_bonds import MixedBonds
+    from nmm.contact.solution.request import StepRequest
 
 
 @dataclass
@@ -48,26 +51,30 @@ class StepBonds:
         self,
         contacts: ContactPoints,
         state: State,
-        rows: ContactRows,
+        rows: "ContactRows",
         weight: float = 1.0,
         time: float | None = None,
-    ) -> TiedBonds | None:
+    ) -> "TiedBonds | None":
         """Return the whole bonds of a step, see `TiedBonds.of`; None without any."""
         if self.terms is None or not contacts.tied.any():
             return None
+        from nmm.contact.bonds.tied_step import TiedBonds
+
         return TiedBonds.of(self.terms, contacts, state, rows, weight, self.stresses, time)
 
     def mixed(
         self, contacts: ContactPoints, state: State, time: float | None = None
-    ) -> MixedBonds | None:
+    ) -> "MixedBonds | None":
         """Return the bonds whose law has the mixed form, see `MixedBonds.of`; None without any."""
         if self.terms is None:
             return None
+        from nmm.contact.solution.mixed_bonds import MixedBonds
+
         return MixedBonds.of(self.terms, self.laws, contacts, state, self.stresses, time)
 
     def posed(
-        self, contacts: ContactPoints, rows: ContactRows, request: StepRequest, state: State
-    ) -> tuple[MixedBonds | None, tuple[ContactPoints, ContactRows, StepRequest]]:
+        self, contacts: ContactPoints, rows: "ContactRows", request: "StepRequest", state: State
+    ) -> "tuple[MixedBonds | None, tuple[ContactPoints, ContactRows, StepRequest]]":
         """Return the bonds of the mixed form, and the problem of a step with their springs."""
         mixed, given = self.mixed(contacts, state, request.time), (contacts, rows, request)
         return mixed, given if mixed is None else mixed.posed(*given)
@@ -83,7 +90,7 @@ class StepBonds:
         return None if begun.any() else self.terms.mixed_among(contacts)
 
     def overload(
-        self, contacts: ContactPoints, answer: StepAnswer | ContactPoints, joints: ContactPoints
+        self, contacts: ContactPoints, answer: "StepAnswer | ContactPoints", joints: ContactPoints
     ) -> Floats:
         """Return load over strength (m,) of bonds that break or begin to soften above one.
 

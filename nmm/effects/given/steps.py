@@ -4,9 +4,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Self
 
-from scipy.sparse import csc_array
-
 from integration.arrays import Floats
+from integration.sparse import csc_array
 from nmm.assembly.state import State
 
 

@@ -1,8 +1,7 @@
 """Hooks of the forces, matrices and constraints of effects in a step."""
 
-from scipy.sparse import csc_array, csr_array
-
 from integration.arrays import Floats
+from integration.sparse import csc_array, csr_array
 from nmm.assembly.state import State
 from nmm.effects.given.steps import Instant, Span, StepForce
 

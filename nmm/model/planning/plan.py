@@ -12,9 +12,9 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats
+from integration.sparse import csc_array, csr_array
 from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.effects.base import Effect, Instant, Span, StepForce, defines

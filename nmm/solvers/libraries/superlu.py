@@ -4,9 +4,9 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
-from scipy.sparse import csc_array
 
 from integration.arrays import Floats
+from integration.sparse import csc_array
 from nmm.solvers.factor import RankDeficientError
 from nmm.solvers.linear import LinearSolver
 from nmm.solvers.saddle import equilibrated_scale

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from covers.cutting.cut_boundary import CutBoundary
 from integration.arrays import Bools, Ints
+from integration.sparse import csr_array
 from nmm.contact.detection.contacts import Contacts, FaceContacts
 from nmm.contact.points.boundary_points import Sides
 from nmm.solvers.unchecked import largest

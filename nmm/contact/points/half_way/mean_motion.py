@@ -10,9 +10,9 @@ smaller is what is missing after each solution.
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from integration.arrays import Floats
+from integration.sparse import csr_array
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform
 from nmm.frozen import MadeOnce, with_parts

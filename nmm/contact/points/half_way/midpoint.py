@@ -12,11 +12,11 @@ both sides: it makes no couple.
 """
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from integration.arrays import Floats
 from integration.contraction import contract
 from integration.plane_vectors import clockwise
+from integration.sparse import csr_array
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.contact.points.between_faces import EdgeShares
