@@ -30,9 +30,17 @@ class CoverType:
     ----------
     coordinates
         options that are points in the axes of the scene.
+    family
+        "manifold", or "DDA" where blocks are covered one by one: what studies compare.
+    usual_functions, usual_degree
+        Local functions of its covers where none are named, and their degree where none is given;
+        None asks for one.
     """
 
     coordinates: ClassVar[tuple[str, ...]] = ()
+    family: ClassVar[str] = "manifold"
+    usual_functions: ClassVar[str] = "monomials"
+    usual_degree: ClassVar[int | None] = 1
 
 
 @dataclass(frozen=True, eq=False)

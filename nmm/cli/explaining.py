@@ -81,6 +81,8 @@ def _steps(chosen: "Formulation") -> str:
 
 def _sizes(scene: "Scene", chosen: "Formulation", blocks: int, elements: int) -> Iterator[str]:
     """Yield the lines that say what kind of run it is."""
+    from nmm.geometry.tessellation.cover_types import named_functions
+
     dynamic = scene.inertia is not None
     kind = "dynamic" if dynamic else "quasi-static, over time" if scene.in_time else "static"
     yield f"run: {kind}, plane {scene.plane}"
@@ -102,7 +104,7 @@ def _sizes(scene: "Scene", chosen: "Formulation", blocks: int, elements: int) ->
         yield "stages: " + ", ".join(f"{one.name} ({_ends(one)})" for one in scene.stages)
     if scene.contact is not None:
         yield f"contact: {chosen.contact.enforcement}"
-    yield f"cover: {chosen.cover.type}, {chosen.cover.functions}"
+    yield f"cover: {chosen.cover.type}, {named_functions(chosen.cover)}"
     yield f"blocks: {blocks:,}"
     yield f"elements: {elements:,}"
 

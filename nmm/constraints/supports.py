@@ -30,6 +30,7 @@ from nmm.effects.base import Instant, Setup
 from nmm.effects.motion.ground import Ground
 from nmm.effects.motion.reactions import Reactions
 from nmm.frozen import MadeOnce
+from nmm.geometry.tessellation.cover_types import highest_degree
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
@@ -68,7 +69,7 @@ class Supports(TiedInterfaces):
         scene, cover = setup.scene, setup.formulation.cover
         size = cover.finest if setup.model.manifold.shared_covers else None
         part = setup.formulation.supports
-        method = support_method(setup.model, part, size, cover.highest_degree)
+        method = support_method(setup.model, part, size, highest_degree(cover))
         interfaces = [_interface(setup, support, method) for support in scene.supports]
         edges = [i for i, one in enumerate(interfaces) if one.first.normal is not None]
         # At points that are no edge springs, which need no traction.

@@ -3,7 +3,7 @@
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import final
+from typing import ClassVar, final
 
 import numpy as np
 
@@ -57,6 +57,10 @@ class InterfaceLaw(ABC):
     dilation_angle: float = 0.0
     dilation_slip: float = float("inf")
     damping: float = 0.0
+
+    softened: ClassVar[str] = ""
+    """Name of the law that a scene means by this one where it gives a fracture energy; laws derived
+    from this one are meant as they are."""
 
     @property
     def columns(self) -> Mapping[str, HistoryColumn]:

@@ -28,22 +28,22 @@ WHERE_GIVEN = (
 
 
 def interface_law(item: Any) -> InterfaceLaw:
-    """Return the law of a scene's interface: with a fracture energy the common one softens.
+    """Return the law of a scene's interface: with a fracture energy its softened form, if any.
 
     Raises
     ------
     SceneError
         Limits or springs that no contact can have.
     """
-    softens = item.law == "mohr_coulomb" and item.fracture_energy is not None
+    softened = vars(INTERFACE_LAWS.load(item.law)).get("softened")
+    meant = item.law if item.fracture_energy is None else softened or item.law
     given = {name: getattr(item, name) for name in ALWAYS}
     for name in WHERE_GIVEN:
         if getattr(item, name) is not None:
             given[name] = getattr(item, name)
     if item.restitution is not None:
         given["damping"] = damping_of(item.restitution)
-    name = "linear_softening" if softens else item.law
-    law: InterfaceLaw = INTERFACE_LAWS.make(name, item.options, **given)
+    law: InterfaceLaw = INTERFACE_LAWS.make(meant, item.options, **given)
     _refuse_unsound(law)
     return law
 

@@ -1,6 +1,7 @@
 """Mohr-Coulomb strength with a tension cut-off; bonds are brittle and break for good."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -18,6 +19,8 @@ class MohrCoulomb(InterfaceLaw):
     An intact bond is elastic up to these limits. A broken one, and a contact that never was bonded,
     carries no pull and friction alone; an unbonded contact keeps its cohesion while it is closed.
     """
+
+    softened: ClassVar[str] = "linear_softening"
 
     def response(self, history: History, stiffness: Floats) -> InterfaceResponse:
         """Return no limit for intact bonds, and the residual limits for the others."""

@@ -13,6 +13,7 @@ from nmm.assembly.model import Model
 from nmm.formulation import CoverTable
 from nmm.geometry.blocks import Regions
 from nmm.geometry.geometry import Geometry
+from nmm.geometry.tessellation.cover_types import highest_degree
 from nmm.materials.base import Law
 from nmm.model.manifolds.covering import Covering, cell_sizes, cover_regions
 
@@ -122,7 +123,7 @@ def covered(
         finite=sheet.finite,
         bonded=bonded,
         cutting=covering.cutting,
-        cell_size=cell_sizes(covering, cover.highest_degree) if sized else None,
+        cell_size=cell_sizes(covering, highest_degree(cover)) if sized else None,
     )
 
 

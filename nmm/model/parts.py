@@ -10,7 +10,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from nmm.errors import Fault, FormulationError, NmmError, SceneError
-from nmm.scene.faults import suggestion
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -156,15 +155,13 @@ def _control(part: Any) -> None:
 
 
 def _cover(part: Any) -> None:
-    from nmm.geometry.tessellation.cover_types import COVER_TYPES, LOCAL_FUNCTIONS, block_cover
+    from nmm.geometry.tessellation.cover_types import block_cover, functions_of
     from nmm.model.manifolds.several_meshes import net_class
 
-    if part.degree is not None or LOCAL_FUNCTIONS.load(part.functions).any_degree:
+    if part.degree is not None or functions_of(part).any_degree:
         from nmm.model.manifolds.covering import local_functions
 
         local_functions(part)
-    if ":" not in part.type:
-        _known("cover", part.type, [*COVER_TYPES.table])
     blocks = block_cover(part)
     if blocks is None:
         net_class(part)
@@ -178,12 +175,6 @@ def _cover(part: Any) -> None:
     if part.size is None:
         expected = f'the size of a cell in m, as type is "{part.type}"'
         raise FormulationError(Fault("size", "missing", expected, "add for example size = 0.1"))
-
-
-def _known(kind: str, name: str, known: list[str]) -> None:
-    if name not in known:
-        expected = f"one of {', '.join(known)}"
-        raise FormulationError(Fault(kind, f'"{name}"', expected, suggestion(name, known)))
 
 
 def _enforcement(part: Any) -> None:

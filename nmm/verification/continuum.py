@@ -19,6 +19,7 @@ from nmm.constraints.interface import Interface
 from nmm.constraints.springs import Springs
 from nmm.constraints.supports import Supports
 from nmm.formulation import Formulation
+from nmm.geometry.tessellation.cover_types import degree_of
 from nmm.verification.base import Case
 from nmm.verification.formulations import chosen, with_cover
 
@@ -129,7 +130,7 @@ def on_mesh(name: str, size: float, position: int = 0) -> Formulation:
 
 def degree(formulation: Formulation) -> int:
     """Degree of the local functions."""
-    return formulation.cover.degree or 0
+    return degree_of(formulation.cover) or 0
 
 
 def fine(formulation: Formulation) -> int:

@@ -14,6 +14,7 @@ from nmm.effects.motion.edge_dashpots import EdgeDashpots, ground_of
 from nmm.effects.motion.ground_column import Drive, GroundColumn, still
 from nmm.effects.motion.record import motions_of
 from nmm.errors import Fault, GeometryError, SceneError
+from nmm.geometry.tessellation.cover_types import highest_degree
 
 if TYPE_CHECKING:
     from nmm.scene.tables.shaking.boundaries import FreeFieldTable
@@ -86,7 +87,7 @@ def _side(setup: Setup, table: "FreeFieldTable") -> FreeField:
     model = setup.model
     order = 2 * max(model.manifold.degree, 1)
     place = edge_place(setup, "free_fields", table, order)
-    linear = setup.formulation.cover.highest_degree == 0
+    linear = highest_degree(setup.formulation.cover) == 0
     height, element = _layers(place, 1 if linear else FINER)
     _refuse_leaning(setup, table, model.elasticity[element])
     damping = setup.scene.damping

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from integration.arrays import Ints
 from nmm.effects.base import Setup
 from nmm.errors import Fault, FormulationError, SceneError
-from nmm.geometry.tessellation.cover_types import LOCAL_FUNCTIONS
+from nmm.geometry.tessellation.cover_types import functions_of, named_functions
 
 if TYPE_CHECKING:
     from nmm.fracture.nucleation.nuclei import Nuclei
@@ -75,8 +75,8 @@ def refuse_nucleation(setup: Setup, nuclei: "Nuclei") -> None:
     """
     cover, place = setup.formulation.cover, setup.scene.source.place("fracture", "nucleation")
     plain = cover.enrichment is not None and not cover.enrichment.tips
-    if cover.size is None or plain or not LOCAL_FUNCTIONS.load(cover.functions).enriched:
-        value = "tips = false" if plain else f'cover "{cover.type}" of "{cover.functions}"'
+    if cover.size is None or plain or not functions_of(cover).enriched:
+        value = "tips = false" if plain else f'cover "{cover.type}" of "{named_functions(cover)}"'
         remedy = 'use type = "triangles" with a size in [cover], and leave tips to it'
         raise FormulationError(Fault(place, value, "a mesh whose tips carry functions", remedy))
     if not nuclei.fits:

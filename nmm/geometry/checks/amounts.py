@@ -12,7 +12,7 @@ from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm import capacity
 from nmm.errors import Fault, FormulationError
-from nmm.geometry.tessellation.cover_types import COVER_TYPES
+from nmm.geometry.tessellation.cover_types import COVER_TYPES, highest_degree
 
 if TYPE_CHECKING:
     from nmm.formulation import CoverTable
@@ -81,7 +81,7 @@ def _refuse_cells(
             cells = kind.foreseen(bounds, size, **cover.options)
         except (ValueError, TypeError):  # the net says what is wrong with its options when laid
             return
-        amount = cells * capacity.CELL * kind.overlap * (1 + cover.highest_degree) ** 2
+        amount = cells * capacity.CELL * kind.overlap * (1 + highest_degree(cover)) ** 2
     else:
         cells = float(areas.sum()) / size**2
         amount = cells * capacity.BLOCK

@@ -38,6 +38,9 @@ class BlockCover(CoverType):
         these are refused.
     """
 
+    family: ClassVar[str] = "DDA"
+    usual_functions: ClassVar[str] = "rigid_strain"
+    usual_degree: ClassVar[int | None] = None
     divides: ClassVar[bool] = False
 
     def divided(

@@ -43,6 +43,32 @@ def block_cover(cover: "CoverTable") -> BlockCover | None:
     return made
 
 
+def named_functions(cover: "CoverTable") -> str:
+    """Return the name of the local functions: as given, or that of those usual for its type."""
+    return cover.functions or COVER_TYPES.load(cover.type).usual_functions
+
+
+def functions_of(cover: "CoverTable") -> type[LocalFunctions]:
+    """Return the class of the local functions of ``[cover]``."""
+    return LOCAL_FUNCTIONS.load(named_functions(cover))
+
+
+def degree_of(cover: "CoverTable") -> int | None:
+    """Return the degree of the local functions; None where neither the table nor its type says one.
+
+    That of the type goes with the functions that are usual for it.
+    """
+    if cover.degree is not None:
+        return cover.degree
+    kind = COVER_TYPES.load(cover.type)
+    return kind.usual_degree if named_functions(cover) == kind.usual_functions else None
+
+
+def highest_degree(cover: "CoverTable") -> int:
+    """Return the highest degree of the local functions, over all regions."""
+    return max([degree_of(cover) or 0, *(item.degree for item in cover.regions or ())])
+
+
 def piece_glue(cover: "CoverTable") -> PieceGlue | None:
     """Return what holds the pieces of blocks together; None where nothing does for good."""
     blocks = block_cover(cover)

@@ -12,7 +12,12 @@ from covers.local_functions.polynomials import LocalFunctions
 from integration.arrays import Floats
 from nmm.errors import FormulationError
 from nmm.geometry.tessellation.block_cover import WholeBlocks
-from nmm.geometry.tessellation.cover_types import LOCAL_FUNCTIONS, block_cover
+from nmm.geometry.tessellation.cover_types import (
+    block_cover,
+    degree_of,
+    functions_of,
+    named_functions,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -75,8 +80,9 @@ def cover_regions(
     kind = block_cover(cover)
     if cover.regions and (kind is not None or not functions.any_degree):
         raise FormulationError(
-            f'[[cover.regions]]: with type = "{cover.type}", functions = "{cover.functions}": '
-            'expected a mesh of polynomials: use type = "triangles" and functions = "monomials"'
+            f'[[cover.regions]]: with type = "{cover.type}", functions = '
+            f'"{named_functions(cover)}": expected a mesh of polynomials: use type = "triangles" '
+            'and functions = "monomials"'
         )
     if cover.nets and kind is not None:
         raise FormulationError(
@@ -98,19 +104,18 @@ def cover_regions(
 
 def local_functions(cover: "CoverTable") -> LocalFunctions:
     """Return the local functions that ``[cover]`` names."""
-    functions = LOCAL_FUNCTIONS.load(cover.functions)
-    if functions.any_degree and cover.degree is None:
+    functions, degree, name = functions_of(cover), degree_of(cover), named_functions(cover)
+    if functions.any_degree and degree is None:
         raise FormulationError(
-            f'[cover] degree: not given: expected 0 to 3 with functions = "{cover.functions}": add '
-            "degree"
+            f'[cover] degree: not given: expected 0 to 3 with functions = "{name}": add degree'
         )
-    if not functions.any_degree and cover.degree not in (None, 1):
+    if not functions.any_degree and degree not in (None, 1):
         raise FormulationError(
-            f'[cover] degree: {cover.degree}: expected 1 with functions = "{cover.functions}": use '
+            f'[cover] degree: {degree}: expected 1 with functions = "{name}": use '
             'functions = "monomials", or leave degree out'
         )
     try:
-        return functions(1 if cover.degree is None else cover.degree)
+        return functions(1 if degree is None else degree)
     except ValueError as fault:
         raise FormulationError(f"[cover] {fault}") from fault
 

@@ -27,7 +27,7 @@ def kinds_by_region(
         A polygon without area or one that crosses itself, an unknown block, a region in which no
         cover lies.
     """
-    degree = np.full(cut.n_covers, cover.degree or 0)
+    degree = np.full(cut.n_covers, functions.degree)
     centre = cover_centroids(cut)
     for number, item in enumerate(cover.regions or ()):  # a handful of regions
         inside = _inside(item, number, regions, cut, centre)

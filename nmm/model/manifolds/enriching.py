@@ -7,7 +7,7 @@ import numpy as np
 from covers.approximation.singular.enrichment import Enrichment
 from integration.arrays import Floats, Ints
 from nmm.errors import FormulationError
-from nmm.geometry.tessellation.cover_types import LOCAL_FUNCTIONS
+from nmm.geometry.tessellation.cover_types import functions_of
 from nmm.scene.methods.cover_tables import EnrichmentTable
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ def with_growing_tips(cover: "CoverTable") -> "CoverTable":
 
     What ``[cover.enrichment]`` says stays.
     """
-    enriched = LOCAL_FUNCTIONS.load(cover.functions).enriched
+    enriched = functions_of(cover).enriched
     if cover.enrichment is not None or cover.size is None or not enriched:
         return cover
     table = EnrichmentTable(radius=GROWING * cover.size)
@@ -129,4 +129,4 @@ def _tips(cut: "CutCells", cover: "CoverTable", bonded: "Sequence[int]") -> Ints
     every = np.flatnonzero(~np.isin(cut.tips.crack, bonded))
     if cover.enrichment is not None:
         return every if cover.enrichment.tips else every[:0]
-    return every if LOCAL_FUNCTIONS.load(cover.functions).enriched else every[:0]
+    return every if functions_of(cover).enriched else every[:0]

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import Field, model_validator
 
@@ -23,8 +22,6 @@ from nmm.scene.fields import (
 )
 
 OWN = 'or "module:Name"'
-# Built-in types whose default functions are a rigid motion with strain, not polynomials.
-_OF_BLOCKS = ("block", "sub_blocks")
 
 
 class PartTable(Frozen):
@@ -119,7 +116,8 @@ class CoverTable(PartTable):
 
     The type "sub_blocks" divides blocks and glues the parts.
 
-    A mesh has local functions "monomials" of degree 1 unless others are named.
+    A mesh has local functions "monomials" of degree 1 unless others are named, blocks
+    "rigid_strain".
     """
 
     type: PartName = Field(
@@ -128,9 +126,9 @@ class CoverTable(PartTable):
         f"{OWN} of a cover",
         examples=["triangles"],
     )
-    functions: PartName = Field(
-        default="rigid_strain",
-        description=f'"rigid_strain", "rigid", "monomials" {OWN}; meshes take monomials',
+    functions: PartName | None = Field(
+        default=None,
+        description=f'"rigid_strain", "rigid", "monomials" {OWN}; without it those of the type',
         examples=["monomials"],
     )
     degree: Count | None = Field(
@@ -165,19 +163,3 @@ class CoverTable(PartTable):
         """Smallest size of a mesh (m)."""
         sizes = [self.size, *(item.size for item in self.nets or ())]
         return min((size for size in sizes if size is not None), default=None)
-
-    @property
-    def highest_degree(self) -> int:
-        """Highest degree of the polynomials, over all regions."""
-        return max([self.degree or 0, *(item.degree for item in self.regions or ())])
-
-    @model_validator(mode="before")
-    @classmethod
-    def _mesh(cls, data: Any) -> Any:
-        """Give meshes polynomials of degree 1 unless other functions are named."""
-        if not isinstance(data, Mapping) or data.get("type", "block") in _OF_BLOCKS:
-            return data
-        plain = {"functions": "monomials"} if "functions" not in data else {}
-        monomials = data.get("functions", "monomials") == "monomials"
-        degree = {"degree": 1} if monomials and data.get("degree") is None else {}
-        return {**data, **plain, **degree}

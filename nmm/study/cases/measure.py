@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from nmm.errors import in_a_line
 from nmm.progress import Progress
 from nmm.study.cases.block_covers import blocks_of
+from nmm.study.cases.families import family_of, spanned_degree
 from nmm.study.cases.memory import added_memories
 from nmm.study.cases.quantities import Measured, quantity
 from nmm.study.cases.record import VALID, Record
@@ -121,6 +122,7 @@ def _identity(case: StudyCase) -> dict[str, Any]:
         "settings": dict(case.settings),
         "key": case.key,
         "cover": case.formulation.cover.type,
+        "family": family_of(case.formulation.cover),
         "method": method_of(case.formulation),
         "scene_hash": scene_hash(case.scene),
         "formulation_hash": formulation_hash(case.formulation),
@@ -154,6 +156,7 @@ def _record(case: StudyCase, done: Measured, names: Sequence[str]) -> Record:
         status=summary.status,
         sentence=summary.sentence,
         quantities=values,
+        spanned=spanned_degree(case.formulation.cover, done),
         phases=dict(summary.seconds),
         effects=dict(summary.effect_seconds),
         unknowns=summary.unknowns,

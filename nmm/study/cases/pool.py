@@ -3,10 +3,12 @@
 from collections.abc import Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
+from dataclasses import replace
 from multiprocessing import get_context
 from typing import Any
 
 from nmm.errors import NmmError
+from nmm.study.cases.families import family_of
 from nmm.study.cases.record import Record
 from nmm.study.cases.threads import one_thread
 from nmm.study.cases.variants import StudyCase
@@ -77,8 +79,9 @@ def _pool(processes: int) -> ProcessPoolExecutor:
 
 def lost(case: StudyCase, sentence: str) -> Record:
     """Return the record of a case that nothing came back from."""
-    cover = case.formulation.cover.type
-    return Record(case.name, dict(case.settings), case.key, "error", sentence, cover=cover)
+    cover = case.formulation.cover
+    found = Record(case.name, dict(case.settings), case.key, "error", sentence)
+    return replace(found, cover=cover.type, family=family_of(cover))
 
 
 def run_on_cluster(

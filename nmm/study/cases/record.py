@@ -34,7 +34,11 @@ class Record:
     memory
         Bytes that the run added to the process, at its peak; None when not measured.
     cover
-        Type of the cover; "block" is DDA, "skfem" the elements of scikit-fem.
+        Type of the cover; "skfem" is the elements of scikit-fem.
+    family
+        "DDA" (one cover a block or sub-block), "elements" or "manifold".
+    spanned
+        Degree of the complete polynomials among the displacements; None where no order is known.
     method
         Cover and degree, enforcement, integrator in words.
     scene_hash, formulation_hash, seed, versions, machine, commit
@@ -57,6 +61,8 @@ class Record:
     passes: int = 0
     memory: int | None = None
     cover: str = ""
+    family: str = "manifold"
+    spanned: int | None = None
     method: Mapping[str, str] = field(default_factory=dict)
     scene_hash: str = ""
     formulation_hash: str = ""
@@ -69,13 +75,6 @@ class Record:
     def valid(self) -> bool:
         """Whether the run's numbers may be used."""
         return self.status in VALID
-
-    @property
-    def family(self) -> str:
-        """Whether it is "DDA" (one cover a block or sub-block), "elements" or "manifold"."""
-        return {"block": "DDA", "sub_blocks": "DDA", "skfem": "elements"}.get(
-            self.cover, "manifold"
-        )
 
     @property
     def median_seconds(self) -> float:

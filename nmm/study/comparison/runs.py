@@ -7,7 +7,7 @@ from time import process_time
 from nmm.errors import NmmError, in_a_line
 from nmm.progress import Progress
 from nmm.stepping.run import Run, run
-from nmm.study.cases.block_covers import blocks_of
+from nmm.study.cases.families import family_of
 from nmm.study.cases.measure import method_of
 from nmm.study.cases.memory import added_memory
 from nmm.study.cases.variants import StudyCase
@@ -83,7 +83,7 @@ def _timed(case: StudyCase) -> tuple[Run, float]:
 
 
 def _compared(case: StudyCase, grid: Raster, memory: bool) -> Compared:
-    family = "manifold" if blocks_of(case.formulation.cover) is None else "DDA"
+    family = family_of(case.formulation.cover)
     method = method_of(case.formulation)["cover"]
     try:
         done, seconds = _timed(case)

@@ -103,8 +103,7 @@ def _theory(study: CostStudy, records: Sequence[Record], order: Order) -> str:
     method = records[0].method
     name = size_name(records)
     if name == UNKNOWNS:
-        cover, quantity = method.get("cover", ""), study.reference.quantity
-        found = order_in_size(cover, quantity, study.exponent)
+        found = order_in_size(records[0].spanned, study.reference.quantity, study.exponent)
         where = "for a smooth solution" if study.exponent is None else "at the corner"
     elif name.endswith("integrator.step"):
         found, where = order_in_step(method), "while contacts stay as they are"

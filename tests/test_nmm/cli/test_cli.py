@@ -198,7 +198,7 @@ def test_check_finds_faults_of_geometry(tmp_path):
     ("old", "new", "said"),
     [
         ('"rigid_strain"', '"rigid_strian"', 'cover.functions: local functions: "rigid_strian"'),
-        ('"block"  ', '"blok"  ', "expected one of block, sub_blocks, triangles"),
+        ('"block"  ', '"blok"  ', 'or "module:Name" of your own: did you mean "block"?'),
         ('"1 ms"', '"1 ms"\ntype = "newmarc"', 'did you mean "newmark"?'),
         (
             '"1 ms"',

@@ -1,15 +1,22 @@
 """Cohesive laws alone: what strength is left at what opening, and the energy it takes."""
 
-from dataclasses import replace
+import sys
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 import pytest
 
 from nmm.errors import SceneError
+from nmm.interfaces.from_scene import interface_law
 from nmm.interfaces.mohr_coulomb import MohrCoulomb
 from nmm.interfaces.restitution import damping_of, restitution
 from nmm.interfaces.softening import BilinearSoftening, ExponentialSoftening, LinearSoftening
+from nmm.scene.matter.interfaces import InterfaceTable
+from nmm.trust import allowing
 
+ME = Path(__file__).stem
 STRENGTH, ENERGY, SPRING = 3e6, 100.0, 1e13
 LINEAR = LinearSoftening(
     friction_angle=0.6,
@@ -144,3 +151,33 @@ def test_damping_gives_the_restitution_asked_for(wanted):
 def test_a_restitution_of_almost_nothing_has_its_damping(wanted):
     """Far beyond critical damping it is 1 / (2 share)^2."""
     assert damping_of(wanted) == pytest.approx(0.5 / np.sqrt(wanted), rel=1e-4)
+
+
+@dataclass(frozen=True)
+class Brittle(MohrCoulomb):
+    """The common law under another name, without a softened form."""
+
+
+@dataclass(frozen=True)
+class Mortar(MohrCoulomb):
+    """The common law under another name, which softens bilinearly."""
+
+    softened: ClassVar[str] = "bilinear_softening"
+
+
+@pytest.mark.parametrize(
+    ("law", "meant"),
+    [
+        ("mohr_coulomb", LinearSoftening),
+        (f"{ME}:Brittle", Brittle),
+        (f"{ME}:Mortar", BilinearSoftening),
+    ],
+)
+def test_a_fracture_energy_asks_for_the_softened_form_that_a_law_says_it_has(
+    monkeypatch, law, meant
+):
+    monkeypatch.setitem(sys.modules, ME, sys.modules[__name__])
+    bonded = {"bonded": True, "cohesion": 4e6, "tensile_strength": 3e6, "friction_angle": 0.6}
+    table = InterfaceTable.model_validate({"law": law, **bonded, "fracture_energy": 100.0})
+    with allowing(ME):
+        assert type(interface_law(table)) is meant

@@ -2,6 +2,8 @@
 
 import sys
 from dataclasses import dataclass
+from importlib import metadata
+from importlib.metadata import EntryPoint
 from itertools import pairwise
 from pathlib import Path
 from typing import ClassVar
@@ -49,6 +51,14 @@ PRESSED = text.scene(
 @dataclass(frozen=True)
 class Stones(BlockCover):
     """Whole blocks under another name."""
+
+
+@dataclass(frozen=True)
+class Boulders(BlockCover):
+    """Whole blocks that are quadratic unless the formulation says otherwise."""
+
+    usual_functions: ClassVar[str] = "monomials"
+    usual_degree: ClassVar[int | None] = 2
 
 
 @dataclass(frozen=True)
@@ -145,16 +155,16 @@ FLYING = text.scene(
     ],
 )
 LINEAR = {"rotation": {"update": "linear"}, "integrator": {"step": "0.02 s"}}
-SUB_BLOCKS = {"size": 0.5, "functions": "rigid_strain", "options": {"mesh": "quads"}}
+SUB_BLOCKS = {"size": 0.5, "options": {"mesh": "quads"}}
 
 
 @pytest.mark.parametrize(
     ("scene", "own", "built_in", "cover", "tables"),
     [
-        (WALL, "Stones", "block", {"functions": "rigid_strain"}, {}),
+        (WALL, "Stones", "block", {}, {}),
         (WALL, "Stones", "block", {"functions": "monomials", "degree": 2}, {}),
         # The classical update lays whole blocks anew, whatever their cover is called.
-        (FLYING, "Stones", "block", {"functions": "rigid_strain"}, LINEAR),
+        (FLYING, "Stones", "block", {}, LINEAR),
         (WALL, "Divided", "sub_blocks", SUB_BLOCKS, {}),
     ],
 )
@@ -164,6 +174,21 @@ def test_a_block_cover_under_another_name_has_the_same_digits(scene, own, built_
     assert one.history.keys() == other.history.keys()
     np.testing.assert_array_equal(one.frames[-1].points, other.frames[-1].points)
     assert np.ptp(one.frames[-1].points - one.frames[0].points) > 1e-5  # something moved
+
+
+@pytest.mark.parametrize(("kind", "unknowns"), [("Stones", 6), ("Boulders", 12)])
+def test_functions_that_are_not_named_are_those_usual_for_the_type(kind, unknowns):
+    done = run(WALL, {"type": f"{ME}:{kind}"})
+    assert done.manifold.n_unknowns == 2 * unknowns  # of two blocks
+
+
+def test_an_installed_package_offers_a_cover_by_name(monkeypatch):
+    def offered(group):
+        return [EntryPoint("stones", f"{ME}:Stones", group)] if group == "nmm.cover" else []
+
+    monkeypatch.setattr(metadata, "entry_points", offered)
+    done = nmm.run(parse_scene(WALL), Formulation.model_validate({"cover": {"type": "stones"}}))
+    assert done.manifold.n_unknowns == 12
 
 
 @pytest.mark.parametrize(("lowest", "courses"), [(1.0, 6), (0.5, 7)])

@@ -2,23 +2,27 @@
 
 import subprocess
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
 import nmm
+from covers.mathematical.triangles import Triangles
 from nmm.errors import NmmError
+from nmm.geometry.tessellation.block_cover import BlockCover
 from nmm.plots.families import METHODS, styles
 from nmm.study.cases import running
+from nmm.study.cases.measure import record
 from nmm.study.cases.pool import run_here
 from nmm.study.cases.record import Record
-from nmm.study.cases.variants import cases_of
+from nmm.study.cases.variants import StudyCase, cases_of
 from nmm.study.cost.cost_study import CostStudy, cost_study
 from nmm.study.cost.front import LEVELS, levels_of
 from nmm.study.cost.levels import levels
 from nmm.study.cost.reference import Reference
 from nmm.study.cost.report import cost_page
-from nmm.study.cost.theory import order_in_size, spanned_degree
+from nmm.study.cost.theory import order_in_size
 from nmm.trust import allowing
 
 REFERENCE = """
@@ -28,10 +32,11 @@ value = 2e-6
 tolerance = 0.1
 source = "s^2 L / (2 E)"
 """
+ME = Path(__file__).stem
 DDA = {"DDA": nmm.Formulation()}
 
 
-def made(name, cover, unknowns, value, seconds, **settings):
+def made(name, cover, unknowns, value, seconds, family="manifold", spanned=None, **settings):
     return Record(
         name,
         settings,
@@ -43,6 +48,8 @@ def made(name, cover, unknowns, value, seconds, **settings):
         (seconds,),
         unknowns=unknowns,
         cover=cover.split(" ")[0],
+        family=family,
+        spanned=spanned,
         method={"cover": cover, "enforcement": "penalty", "integrator": "shi"},
     )
 
@@ -63,33 +70,61 @@ def test_a_scene_divided_ever_finer_is_measured_against_an_extrapolated_value():
     assert study.reference.quantity == "external_work"
 
 
+class Mine(Triangles):
+    """Triangles under another name."""
+
+
+@dataclass(frozen=True)
+class Stones(BlockCover):
+    """Whole blocks under another name."""
+
+
 @pytest.mark.parametrize(
-    ("cover", "degree"),
-    [("triangles 0", 1), ("quads 2", 3), ("mls 0", 1), ("skfem 3", 3), ("block 1", None)],
+    ("cover", "family", "degree"),
+    [
+        ({"type": "triangles", "degree": 0}, "manifold", 1),
+        ({"type": "quads", "degree": 2}, "manifold", 3),
+        ({"type": "mls", "degree": 0}, "manifold", 1),
+        ({"type": "mls", "degree": 1, "options": {"degree": 0}}, "manifold", 1),
+        ({"type": "bspline", "degree": 0}, "manifold", 2),
+        ({"type": f"{ME}:Mine", "degree": 1}, "manifold", 2),
+        ({"type": "sub_blocks"}, "DDA", 1),
+        ({"type": "block"}, "DDA", None),
+        ({"type": f"{ME}:Stones"}, "DDA", None),
+    ],
 )
-def test_hats_add_one_degree_to_that_of_their_functions(cover, degree):
-    # weights that reproduce linear fields times functions of degree p span degree p + 1
-    assert spanned_degree(cover) == degree
+def test_weights_add_the_degree_that_they_reproduce_to_that_of_their_functions(
+    bar_text, monkeypatch, cover, family, degree
+):
+    # Hats and moving least squares reproduce linear fields, Shepard's constants, splines their own.
+    monkeypatch.setitem(sys.modules, ME, sys.modules[__name__])
+    size = {} if degree is None else {"size": 0.5}
+    formulation = nmm.Formulation.model_validate({"cover": cover | size})
+    with allowing(ME):
+        found = record(StudyCase("a", nmm.parse_scene(bar_text()), formulation), ["energy"])
+    assert (found.status, found.family, found.spanned) == ("converged", family, degree)
 
 
 def test_an_energy_falls_twice_as_fast_as_its_norm():
-    assert order_in_size("triangles 1", "external_work") == (4.0, "2 (s + p)")
-    assert order_in_size("skfem 2", "monitor:tip:uy") == (3.0, "s + p + 1")
-    assert order_in_size("triangles 1", "failure_load") is None
+    assert order_in_size(2, "external_work") == (4.0, "2 (s + p)")
+    assert order_in_size(2, "monitor:tip:uy") == (3.0, "s + p + 1")
+    assert order_in_size(2, "failure_load") is None
 
 
 def test_observed_orders_stand_beside_those_of_theory():
-    records = [made("T1", "triangles 1", n, 1 + 5 * n**-2.0, 1.0) for n in (10, 40, 90, 160)]
+    records = [
+        made("T1", "triangles 1", n, 1 + 5 * n**-2.0, 1.0, spanned=2) for n in (10, 40, 90, 160)
+    ]
     page = cost_page(CostStudy("", records, Reference("external_work", 1.0, 0, "exact")), "a.png")
     assert "T1: 4.00 +- 0.00 (4 points) in unknowns^(-1/2); theory 4 = 2 (s + p)" in page
 
 
 def test_the_cheapest_of_each_family_are_compared_at_equal_error():
     records = [
-        made("DDA", "block 1", 6, 1.5, 1.0),
+        made("DDA", "block 1", 6, 1.5, 1.0, "DDA"),
         *(made("T0", "triangles 0", n, 1 + 1 / n, n / 10) for n in (10, 1000)),
         *(made("T1", "triangles 1", n, 1 + 1 / n, n / 20) for n in (10, 1000)),
-        *(made("P1", "skfem 1", n, 1 + 1 / n, n / 80) for n in (10, 1000)),
+        *(made("P1", "skfem 1", n, 1 + 1 / n, n / 80, "elements") for n in (10, 1000)),
     ]
     study = CostStudy("", records, Reference("external_work", 1.0, 0, "exact"))
     found = [line for line in levels(study) if line.startswith("- at error 0.01,")]

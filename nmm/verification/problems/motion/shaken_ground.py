@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.geometry.tessellation.cover_types import highest_degree
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, limit
 from nmm.verification.formulations import with_cover
@@ -54,7 +55,7 @@ class LayerOnRock(SceneCase):
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return twenty cells a wave, or thirty where functions are linear or constant."""
-        degree = super().formulation(scene, name).cover.highest_degree
+        degree = highest_degree(super().formulation(scene, name).cover)
         return with_cover(super().formulation(scene, name), size=3.0 if degree else 1.5)
 
     def measure(self, run: "Run") -> Checks:
@@ -81,7 +82,7 @@ class LevelGround(LayerOnRock):
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return cells of 2.5 m, or of 6 m with functions of degree 1."""
-        degree = super().formulation(scene, name).cover.highest_degree
+        degree = highest_degree(super().formulation(scene, name).cover)
         return with_cover(super().formulation(scene, name), size=6.0 if degree else 2.5)
 
     def measure(self, run: "Run") -> Checks:

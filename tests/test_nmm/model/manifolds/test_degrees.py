@@ -13,6 +13,7 @@ from nmm.assembly.places import on_edges
 from nmm.constraints.imposition import Method
 from nmm.errors import FormulationError
 from nmm.formulation import parse_formulation
+from nmm.geometry.tessellation.cover_types import highest_degree
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
 from nmm.scene import parse_scene
@@ -48,7 +49,7 @@ def error(text: str) -> tuple[float, int]:
     """Relative error in energy and number of unknowns."""
     cover, model = parse_formulation(text).cover, model_of(text)
     place = on_edges(model.manifold, np.ones(len(model.manifold.boundary), dtype=bool), 12)
-    method = Method("nitsche", cover.size, cover.highest_degree)
+    method = Method("nitsche", cover.size, highest_degree(cover))
     found = equilibrium(model, [hold(model, place, method, field)])
     assert found.residual < 1e-10
     errors = field_errors(model, found.state.deformation, field, strain, 12)
