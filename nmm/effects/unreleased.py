@@ -78,7 +78,8 @@ class UnreleasedForces(Effect):
         begin, goal, released = self.first[stay], self.last[stay], _released(change.setup)
         if change.setup.acting is not change.before.acting:
             begin = goal
-            goal = begin if released is None else np.full(len(begin), 1.0 - released)
+            # What is gone of blocks that left before stays gone as others leave.
+            goal = begin if released is None else np.minimum(begin, 1.0 - released)
         new._take(moved, self.region[stay], begin, goal)
         return new
 

@@ -74,7 +74,7 @@ class StageTable(Frozen):
         ge=0,
         le=1,
         description="share of what removed blocks exerted that is gone at the end of the stage, "
-        "of all that is not yet gone; all of it at once when never given",
+        "of these and of those before; what is gone stays gone; all of it at once when never given",
         examples=[0.5],
     )
     reset_displacements: bool = Field(

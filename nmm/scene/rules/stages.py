@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 
 from nmm.scene.lines import Path
 from nmm.scene.rules.course import two_clocks
@@ -27,7 +27,7 @@ def stage_contradictions(data: Tables) -> Iterator[Finding]:
     if data.get("stages"):
         yield from _beside(data)
     known = {kind: names(data, *keys) for kind, keys in KINDS.items()}
-    leaves = False
+    leaves, gone = False, 0.0
     for path, stage in rows(data, "stages"):
         yield from _blocks_and_materials(data, stage, path)
         for key, given in known.items():
@@ -39,8 +39,21 @@ def stage_contradictions(data: Tables) -> Iterator[Finding]:
             remedy = "remove it, or name the blocks that leave in the stage"
             expected = "a stage in which blocks leave, or after it"
             yield (*path, "release"), "release", expected, remedy
+        gone = yield from _gone(stage, path, gone)
         if "duration" in stage and "inertia" not in data:
             yield from two_clocks(data, (*path, "duration"))
+
+
+def _gone(stage: Tables, path: Path, gone: float) -> Generator[Finding, None, float]:
+    """Yield a release that falls where no blocks leave; return what is gone after the stage."""
+    released = stage.get("release")
+    if not isinstance(released, int | float):
+        return gone
+    if released < gone and not {"remove", "blocks"} & stage.keys():
+        expected = f"at least the {gone:g} of the stage before: what is gone does not come back"
+        remedy = "leave it out where the share stays"
+        yield (*path, "release"), f"{released:g}", expected, remedy
+    return float(released)
 
 
 def _blocks_and_materials(data: Tables, stage: Tables, path: Path) -> Iterator[Finding]:

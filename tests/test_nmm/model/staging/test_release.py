@@ -35,11 +35,11 @@ def run(text, cover=QUADS):
     return nmm.run(parse_scene(text, "scene.toml"), Formulation.model_validate(table))
 
 
-def settled(history):
-    """Ways of the top of the lower block at the ends of stages (m)."""
+def settled(history, monitor="top"):
+    """Ways of the top of a lower block at the ends of stages (m)."""
     time = history["time"]
     ends = [int(np.flatnonzero(time <= at + 1e-9)[-1]) for at in range(1, int(time[-1]) + 1)]
-    return history["monitor:top:uy"][ends]
+    return history[f"monitor:{monitor}:uy"][ends]
 
 
 @pytest.mark.parametrize("column", [GLUED, TOUCHING], ids=["glued", "touching"])
@@ -54,6 +54,41 @@ def test_a_column_rises_by_the_share_of_the_weight_that_is_released(column, cove
     assert abs(found.summary.energy_balance) < 1e-6
 
 
+BESIDE = """
+[[blocks]]
+name = "lower beside"
+material = "rock"
+vertices = [[3, 0], [4, 0], [4, 1], [3, 1]]
+[[blocks]]
+name = "upper beside"
+material = "rock"
+vertices = [[3, 1], [4, 1], [4, 3], [3, 3]]
+[[supports]]
+name = "floor beside"
+segment = [[3, 0], [4, 0]]
+fix = ["x", "y"]
+[[monitors]]
+name = "beside"
+point = [3.5, 1]
+block = "lower beside"
+"""
+
+
+@pytest.mark.parametrize("cover", [QUADS, {"type": "triangles", "size": 0.5, "degree": 1}])
+def test_what_one_block_exerted_stays_gone_as_another_is_released_by_less(cover):
+    """Shares are not lowered: the first column stays up, the other rises by its own share."""
+    digs = [("upper", 1.0), ("upper beside", 0.5)]
+    stages = "".join(
+        f'[[stages]]\nname = "dig {name}"\nremove = ["{name}"]\nrelease = {share}\n'
+        for name, share in digs
+    )
+    history = run(GLUED.replace("[[stages]]", BESIDE + "[[stages]]", 1) + stages, cover).history
+    first, second = settled(history), settled(history, "beside")
+    # Stages end at 1e-10 of their forces.
+    np.testing.assert_allclose(first[2], first[1], rtol=1e-8)
+    np.testing.assert_allclose(second[2] - second[1], 0.5 * WEIGHT / 1e9, rtol=1e-4)
+
+
 def test_blocks_of_one_strain_rise_by_it_too():
     found = run(TOUCHING + STEPS, {"type": "block"})
     left = np.array([1.0, 0.75, 0.75, 0.25, 0.0])
@@ -66,6 +101,7 @@ def test_blocks_of_one_strain_rise_by_it_too():
     [
         ('[[stages]]\nname = "next"\nrelease = 0.5\n', "blocks leave"),
         ('[[stages]]\nname = "next"\nremove = ["upper"]\nrelease = 1.5\n', "1"),
+        (STEPS + '[[stages]]\nname = "back"\nrelease = 0.5\n', "does not come back"),
     ],
 )
 def test_shares_that_mean_nothing_are_refused_by_line(stages, said):
