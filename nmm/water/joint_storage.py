@@ -41,12 +41,15 @@ class WaterStored:
         (n,) heads of the nodes (m), and volumes of the joints at them (m3).
     taken
         Volume that came in since the start (m3), by the name of the prescribed head.
+    stored
+        Volume by which the water in the joints has grown since the start (m3).
     """
 
     time: float
     head: Floats
     volume: Floats
     taken: Mapping[str, float] = field(default_factory=dict)
+    stored: float = 0.0
 
 
 class JointStorage(JointWater):
@@ -139,14 +142,16 @@ class JointStorage(JointWater):
             self._end = self._water.of(state, time)
 
     def history(self, state: State) -> Mapping[str, float]:
-        """Return the largest pressure (Pa) and aperture (m), and inflows since the start (m3)."""
+        """Return the largest pressure (Pa) and aperture (m), inflows and what is stored (m3)."""
         pressure = float(self.pressures(state, state.time).max())
         taken = {f"taken:{name}": amount for name, amount in self._end.taken.items()}
-        return {**taken, "pressure": pressure, "aperture": float(self.apertures(state).max())}
+        largest = {"pressure": pressure, "aperture": float(self.apertures(state).max())}
+        return {**taken, "stored": self._end.stored, **largest}
 
     def carried(self) -> Any:
         return tuple(
-            (one.time, one.head, one.volume, dict(one.taken)) for one in (self._began, self._end)
+            (one.time, one.head, one.volume, dict(one.taken), one.stored)
+            for one in (self._began, self._end)
         )
 
     def carry(self, carried: Any) -> None:
@@ -171,7 +176,7 @@ class JointStorage(JointWater):
         old = self._end
         head = np.where(known, old.head[nearest], new._began.head)
         volume = new._open.of(change.state).volume
-        new._began = new._end = WaterStored(old.time, head, volume, old.taken)
+        new._began = new._end = WaterStored(old.time, head, volume, old.taken, old.stored)
         return new
 
     def _pressure(self, head: Floats) -> Floats:
@@ -194,9 +199,10 @@ class JointStorage(JointWater):
         wet = free & self._balance.pressed(end.head)
         if not wet.any():
             return csc_array((self.n_unknowns, self.n_unknowns))
-        moved = wet if share is None else free
+        # Neither from heads nor for them does it matter how much an empty node could hold.
+        moved = wet if share is None else free & ~self._balance.dry(end.head, end.volume)
         step = step_between(self._began.time, end.time)
-        matrix = self._balance.matrix(self._open.of(state), end.head, step)
+        matrix = self._balance.matrix(self._open.of(state), end.head, end.volume, step)
         coupling = self._coupling(state)
         used = np.flatnonzero(np.abs(coupling[moved]).any(axis=0))
         some = np.where(moved[:, None], coupling[:, used], 0.0)
@@ -219,13 +225,17 @@ class JointStorage(JointWater):
         """Return the water at a time with volumes (n,), by the joints at the start of the step."""
         began, given = self._began, self.given(time / self._second)
         step = step_between(began.time, time)
-        parts = joints, began.head, volume - began.volume
+        parts = joints, began.head, (began.volume, volume)
         head, inflow = self._balance.heads(*parts, given, step)
         taken = {
             one.name: began.taken.get(one.name, 0.0) + float(inflow[one.nodes].sum())
             for one in self.prescribed
         }
-        return WaterStored(time, head, volume, taken)
+        first, last = (
+            float((self._balance.beyond(joints, one, filled) + filled).sum())
+            for one, filled in ((began.head, began.volume), (head, volume))
+        )
+        return WaterStored(time, head, volume, taken, began.stored + last - first)
 
     def _opened(self, state: State) -> OpenJoints:
         return self._balance.opened(super().apertures(state))

@@ -229,3 +229,61 @@ def test_a_full_matrix_that_memory_cannot_hold_is_refused(monkeypatch):
     monkeypatch.setattr("nmm.water.full_matrix.BESIDE_CONTACT", 1e9)
     with pytest.raises(NmmError, match=r"joint_flow\.transient: 12 unknowns, about 144 GB"):
         nmm.run(pair('[joint_flow]\ntransient = true\ninitial = "1 m"\nduration = 1.0\n'))
+
+
+UPRIGHT = """
+title = "slit"
+plane = "strain"
+[materials.rock]
+young_modulus = "10 GPa"
+poisson_ratio = 0.2
+[interfaces.rock]
+friction_angle = 0.6
+bonded = true
+cohesion = "1 GPa"
+tensile_strength = "1 GPa"
+normal_stiffness = "1000 GPa/m"
+shear_stiffness = "10 GPa/m"
+aperture = "1 mm"
+[contact]
+[[blocks]]
+name = "left"
+material = "rock"
+vertices = [[-2, 0], [0, 0], [0, 10], [-2, 10]]
+[[blocks]]
+name = "right"
+material = "rock"
+vertices = [[0, 0], [2, 0], [2, 10], [0, 10]]
+[[supports]]
+name = "left"
+segment = [[-2, 0], [-2, 10]]
+fix = ["x", "y"]
+[[supports]]
+name = "right"
+segment = [[2, 0], [2, 10]]
+fix = ["x", "y"]
+[joint_flow]
+transient = true
+initial = 1.0
+duration = 2000.0
+[[joint_heads]]
+name = "foot"
+point = [0, 0]
+head = 9.0
+history = [[0, 1], [0.5, 1], [0.51, 0.1111111111111111]]
+[formulation.loading]
+increment = 0.05
+"""
+
+
+@pytest.mark.parametrize(("cover", "off"), [("quads", 1e-3), ("triangles", 0.03)])
+def test_a_joint_on_end_that_fills_and_drains_takes_and_gives_what_it_holds(cover, off):
+    """``w (9 - 1)`` of water, where its part below 9 m has nodes half way between."""
+    text = f'{UPRIGHT}[formulation.cover]\ntype = "{cover}"\nsize = 1.0\n'
+    history = nmm.run(nmm.parse_scene(text)).history
+    taken = history["transient joint flow:taken:foot"]
+    # Opened and compressed by 44 kPa in the mean: 6e-5.
+    assert taken.max() == pytest.approx(1e-3 * 8.0, rel=off)
+    # As the springs of the joint have closed again to the tolerance of contact.
+    assert abs(taken[-1]) < 1e-4 * taken.max()
+    assert taken == pytest.approx(history["transient joint flow:stored"], abs=1e-10 * taken.max())
