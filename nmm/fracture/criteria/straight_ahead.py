@@ -10,12 +10,12 @@ from nmm.fracture.criteria.base import Criterion, Kink
 
 @dataclass(frozen=True)
 class StraightAhead(Criterion):
-    """A crack that opens grows without a kink when it releases ``K_Ic^2 / E'`` (Irwin 1957).
+    """A crack grows without a kink when it releases ``K_Ic^2 / E'`` (Irwin 1957).
 
-    The crack of a double cantilever beam, for one, is directionally unstable, and is kept in its
-    plane by grooves.
+    One that is pressed does by what slides. The crack of a double cantilever beam, for one, is
+    directionally unstable, and is kept in its plane by grooves.
     """
 
     def kink(self, opening: Floats, sliding: Floats, kappa: Floats) -> Kink:
-        opens = np.hypot(opening, sliding)
-        return Kink(np.zeros(len(opening)), np.where(opening >= 0, opens, 0.0))
+        equivalent = np.hypot(np.maximum(opening, 0.0), sliding)
+        return Kink(np.zeros(len(opening)), equivalent)

@@ -98,3 +98,9 @@ def test_fracture_energy_and_intensity_are_one_toughness() -> None:
     for wrong in ({}, {"intensity": 1.0, "energy": 1.0}, {"energy": -1.0}, {"intensity": 0.0}):
         with pytest.raises(ValueError, match="expected"):
             Toughness(**wrong)
+
+
+def test_what_presses_a_crack_that_slides_straight_on_holds_it_by_nothing() -> None:
+    """Pure sliding is a limit from both sides: rounding of K_I had held an end-notched beam."""
+    found = StraightAhead().kink(np.array([1e-9, -1e-9, -2.0]), np.ones(3), np.full(3, KAPPA))
+    assert found.equivalent == pytest.approx(np.ones(3), abs=1e-15)
