@@ -92,9 +92,13 @@ class Control(ABC):
         """Return the equation of a step that goes so far."""
         return PathEquation(at.load, self.row(at), self.share(at), target)
 
+    def standstill(self, at: PathState) -> PathEquation:
+        """Return the equation of a balance that is found anew, as after bonds broke, right here."""
+        return self.path(at, 0.0)
+
     def correction(self, at: PathState, step: Floats) -> PathEquation:
         """Return the equation of a correction that ends a ``step`` (n,) and takes it no further."""
-        return self.path(at, 0.0)
+        return self.standstill(at)
 
 
 CONTROLS: Registry[type[Control]] = Registry(

@@ -40,6 +40,10 @@ class Dissipation(Control):
     def share(self, at: PathState) -> float:
         return -float(at.load @ at.way) / 2
 
+    def standstill(self, at: PathState) -> PathEquation:
+        # The same holds here; what the load works on stands still instead.
+        return PathEquation(at.load, at.load, 0.0, 0.0)
+
     def correction(self, at: PathState, step: Floats) -> PathEquation:
         # Unloading to the origin dissipates nothing either, however far: a correction is normal to
         # its step instead (Ramm 1981).

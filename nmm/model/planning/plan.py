@@ -114,12 +114,17 @@ class Plan(NamedEffects):
         more, now = (self.force(state, Instant(time, at)) for at in (factor + 1.0, factor))
         return more - now
 
-    def dead_load(self, state: State) -> Floats:
-        """Return the force (n,) of what no factor scales: weight, stress without strain (N)."""
+    def dead_load(self, state: State, way: Floats) -> Floats:
+        """Return the force (n,) of what no factor scales: weight, stress without strain (N).
+
+        ``way`` (n,) is how far the unknowns have come: what pulls them back, as springs of supports
+        do, is no load.
+        """
         dead = {name for hook in ("work", "stress_at") for name, _ in self.named(hook)}
         at = Instant(state.time, 0.0)
         loads = (one.force(state, at) for name, one in self.named("force") if name in dead)
-        return sum(loads, start=np.zeros(len(state.deformation)))
+        back = (one.matrix(state) @ way for name, one in self.named("matrix") if name in dead)
+        return sum((*loads, *back), start=np.zeros(len(state.deformation)))
 
     @cached_property
     def steady(self) -> bool:

@@ -141,7 +141,8 @@ class _Following:
 
     def _by_load(self, at: OnPath, standing: PathState) -> bool:
         """Whether the load leads from where a path stands, and not what is controlled."""
-        waits = self.control.idle(at.events, at.softened) and self.trials.may_give_way()
+        begins = self.control.from_limit or self.trials.may_give_way()
+        waits = begins and self.control.idle(at.events, at.softened)
         return self.control.by_load or waits or not self.control.row(standing).any()
 
     def _event_within(self, at: PathState, end: TriedStep) -> TriedStep:
@@ -149,7 +150,7 @@ class _Following:
 
         Bonds that gave way last may have left more to their neighbours than these hold.
         """
-        still = self.trials.along(at, self.control.path(at, 0.0))
+        still = self.trials.along(at, self.control.standstill(at))
         if still.attempt.converged and still.load > 1 + ABOVE:
             return still
         now = TriedStep(0.0, end.attempt, np.minimum(self.trials.loads(), 1.0))
@@ -194,7 +195,7 @@ class _Following:
     def _balanced(self, at: OnPath) -> OnPath | RunVerdict:
         """Return the balance after bonds broke, or faces are new, with the control held still."""
         standing, trials = self.trials.standing(at), self.trials
-        path = self.control.path(standing, 0.0)
+        path = self.control.standstill(standing)
         while True:
             found = trials.along(standing, path)
             if not found.attempt.converged:

@@ -32,7 +32,7 @@ class Trials:
     def standing(self, at: OnPath) -> PathState:
         """Return what controls ask of where a path stands."""
         plan = self.stepper.plan
-        load, dead = plan.unit_load(at.state), plan.dead_load(at.state)
+        load, dead = plan.unit_load(at.state), plan.dead_load(at.state, at.way)
         return PathState(at.state, load, dead, self.monitors, at.way)
 
     def along(self, at: PathState, path: PathEquation) -> TriedStep:

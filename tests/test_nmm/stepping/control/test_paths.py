@@ -18,6 +18,7 @@ from nmm.verification.problems.past_the_peak.softening_bar import (
     softening_bar,
 )
 
+PARTS = 'type = "dissipation"\nenergy = 2e-4\n'
 STIFF = "bonded = true\nnormal_stiffness = 1e13\nshear_stiffness = 1e13"
 
 
@@ -34,6 +35,35 @@ def test_steps_that_each_dissipate_the_same_go_round_the_same_path(ratio):
     assert run.history["friction_loss"][-1] == pytest.approx(0.95 * total, rel=1e-3)
     # A linear law unloading to its origin dissipates ft w / 2: of the load a twentieth is left.
     assert run.history["load_factor"][-1] == pytest.approx(0.05 * 300, rel=5e-3)
+
+
+def test_links_that_are_driven_soften_by_what_each_step_takes():
+    """One softens beside one that holds: the force of the springs that drive both is no load."""
+    strength, stiff, opens = 100.0, 5e6, 2 * 0.06 / 1e3  # N, N/m, m at which nothing is left
+    links = bundle((strength, 200.0), PARTS, (stiff, stiff))
+    soft = '[interfaces.i0]\nlaw = "linear_softening"\nfracture_energy = 0.06\n'
+    run = nmm.run(parse_scene(links.replace("[interfaces.i0]\n", soft)))
+    factor, force, lost = run.history["load_factor"], pull(run, 2), run.history["friction_loss"]
+    whole = run.history["broken"] == 0
+    # A line that unloads to its origin loses strength * w / 2; supports give by 3e-4 of a link.
+    width = np.arange(whole.sum() - 1) * 2e-4 * 2 / strength
+    way = width + strength * (1 - width / opens) / stiff
+    held = strength * (1 - width / opens) + stiff * way
+    assert force[whole][:-1] == pytest.approx(held, rel=1e-4)
+    assert 1e-6 * factor[whole][:-1] == pytest.approx(way, rel=1e-4)
+    # The other breaks at once at 40 um, where both stand still, and sheds the half of 200 N.
+    at = int(whole.sum())
+    assert factor[at] == pytest.approx(factor[at - 1], rel=1e-4)
+    assert force[at - 1] - force[at] == pytest.approx(200.0, rel=1e-4)
+    assert lost[at] - lost[at - 1] == pytest.approx(200 * 40e-6 / 2, rel=1e-3)
+
+
+def test_brittle_links_break_under_dissipation_as_they_do_under_a_displacement():
+    """Forces before and after each break by the stiffness that is left, and an end when none is."""
+    run = nmm.run(parse_scene(bundle((200.0, 250.0, 400.0), PARTS, (20e6, 10e6, 5e6))))
+    expected = [350, 150, 375, 125, 400, 0]
+    assert pull(run, 3) == pytest.approx(expected, abs=0.1)  # supports give by 3e-4 of a link
+    assert run.summary.status == "failure_load"
 
 
 def test_links_of_one_strength_break_in_one_event():
