@@ -13,7 +13,8 @@ from nmm.study.comparison.runs import Comparison
 
 def draw(study: Comparison, path: Path) -> None:
     """Draw the page's figure."""
-    from nmm.plots.results.comparison import DrawnRun, comparison
+    from nmm.plots.results.compared import DrawnRun
+    from nmm.plots.results.comparison import comparison
     from nmm.results.viewing.grids import contact_vectors
 
     made, image = study.made, study.raster.image
