@@ -19,7 +19,12 @@ from nmm.contact.detection.tolerances import FIRST_REACH
 from nmm.contact.parts import ContactParts
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.followed_joints import follow_joints
-from nmm.contact.solution.record import ContactCarried, ContactRecord, ContactSolution
+from nmm.contact.solution.record import (
+    ContactCarried,
+    ContactRecord,
+    ContactSolution,
+    correcting,
+)
 from nmm.contact.solution.step_bonds import StepBonds
 from nmm.frozen import with_parts
 
@@ -196,6 +201,10 @@ class ModelContact:
         """Keep the accepted contacts as the start of the next step, and return them."""
         self.record, done = self._candidates.accepted(self.record, self._sought, solved, state)
         return done
+
+    def correct(self, solved: ContactSolution, start: State) -> None:
+        """Let the next solution correct the step from ``start``, of which one was committed."""
+        self.record = correcting(self.record, solved, self.partners.surface(start))
 
     def seek_corners_anew(self) -> None:
         """Let go of pairs held back: they are contacts again where a step lets them through."""

@@ -69,7 +69,7 @@ def test_contact_does_not_know_the_first_vertex_of_a_list(
 def test_contact_does_not_know_the_order_of_blocks(
     cover: str, enforcement: str, friction: float
 ) -> None:
-    # Where bodies' axes stay; with corrections for the moved place see `docs/limits.md`.
+    # Where bodies' axes stay; with corrections for the moved place see below.
     one, other = (
         answer(order, 0, cover, enforcement, friction, "small")
         for order in (["base", "top"], ["top", "base"])
@@ -77,11 +77,15 @@ def test_contact_does_not_know_the_order_of_blocks(
     np.testing.assert_allclose(other, one, rtol=0, atol=ROUNDING[cover])
 
 
+@pytest.mark.parametrize("enforcement", ["penalty", "cone"])
 @pytest.mark.parametrize("cover", list(COVERS))
-def test_friction_after_corrections_differs_by_order_within_what_is_said(cover: str) -> None:
+def test_friction_after_corrections_does_not_know_the_order_of_blocks(
+    cover: str, enforcement: str
+) -> None:
     one, other = (
-        answer(order, 0, cover, "penalty", 1.3, "auto")
+        answer(order, 0, cover, enforcement, 1.3, "auto")
         for order in (["base", "top"], ["top", "base"])
     )
-    # `docs/limits.md`: half a per cent.
-    np.testing.assert_allclose(other, one, rtol=5e-3, atol=5e-3)
+    # Points that divide in the step have slid as far as moved places say: 2e-6 m beside sides of
+    # 0.6 m that turn by as little.
+    np.testing.assert_allclose(other, one, rtol=2e-6, atol=2e-6)

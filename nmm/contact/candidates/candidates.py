@@ -23,6 +23,7 @@ from nmm.contact.points.continued.kept_energy import kept_energy
 from nmm.contact.points.continued.lasting_springs import as_stretched, pushing_on
 from nmm.contact.points.continued.predecessors import Predecessors
 from nmm.contact.points.continued.reference_gap import counted, counted_on
+from nmm.contact.points.continued.sliding_on import slid_since
 from nmm.contact.points.continued.tracking import (
     answered,
     continued,
@@ -89,6 +90,8 @@ class Candidates:
             points = counted_on(self._geometry.measured(points, state), self._ahead)
         else:
             found, points = self._anew(record, state, found, step is not None)
+        if record.began is not None:
+            points = slid_since(points, record.began, self.partners.surface(state))
         return found, concatenate([joints, points])
 
     def _anew(

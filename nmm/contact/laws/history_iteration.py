@@ -136,11 +136,14 @@ class HistoryIteration:
         )
 
 
-def slid_under_load(problem: StepProblem, answer: StepAnswer, softening: Bools) -> Floats:
+def slid_under_load(
+    problem: StepProblem, answer: StepAnswer, softening: Bools, before: Floats
+) -> Floats:
     """Inelastic slip (m,) of the contacts under load; zero where no force acts.
 
     Of a ``softening`` (m,) bond all slip counts: one that is exhausted in the step slid while it
-    held, and would otherwise be whole again.
+    held, and would otherwise be whole again. What slid ``before`` (m,) in a step that is corrected
+    was counted then.
     """
     loaded = softening | (answer.normal_force != 0) | (answer.shear_force != 0)
-    return np.where(loaded, problem.slips(answer.increment) - answer.slip, 0.0)
+    return np.where(loaded, problem.slips(answer.increment) - answer.slip - before, 0.0)

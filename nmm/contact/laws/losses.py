@@ -54,7 +54,8 @@ class ContactLosses:
         the mean of the limits at both ends, what slides later against that at the end. The work of
         dilation against pressure is not lost.
         """
-        rubbed = np.abs(self.answer.shear_force * self.sliding)
+        slid = self.start.slid
+        rubbed = np.abs(self.answer.shear_force) * (np.abs(slid + self.sliding) - np.abs(slid))
         if self.laws.evolving:
             before, after = self.responses
             lifting = self.answer.normal_force * (after.rise - before.rise)

@@ -26,6 +26,8 @@ class ContactPoints:
         (m,) normal distance (m), positive open, counted from the reference.
     slip
         (m,) stretch of the shear spring at the start of the step (m).
+    slid
+        (m,) how far contacts have slid in the step that is corrected (m); zero where one begins.
     length
         (m,) tributary length (m); zero where a contact is a mere vertex.
     spring_factor
@@ -52,6 +54,7 @@ class ContactPoints:
     normal: Floats
     gap: Floats
     slip: Floats
+    slid: Floats
     length: Floats
     spring_factor: Floats
     interface: Ints
@@ -66,7 +69,9 @@ class ContactPoints:
     def unloaded(cls, **given: Any) -> "ContactPoints":
         """Return points (m,) without slip, forces and reference; all else is given."""
         zeros = np.zeros(len(given["gap"]))
-        return cls(slip=zeros, normal_force=zeros, shear_force=zeros, reference=zeros, **given)
+        names = ("slip", "slid", "normal_force", "shear_force", "reference")
+        none: dict[str, Any] = dict.fromkeys(names, zeros)
+        return cls(**none, **given)
 
     def __len__(self) -> int:
         return len(self.gap)

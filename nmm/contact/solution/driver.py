@@ -140,7 +140,7 @@ class ContactSolver:
             enforced = partial(self._enforced, posed.transforms, request.solver)
             answer = solve_through(posed.transforms, posed.problem, enforced)
             passes += answer.passes
-            sliding = posed.slid(answer, iteration.softening)
+            sliding = posed.slid(answer, iteration.softening, contacts.slid)
             if answer.verdict.converged:
                 fault = iteration.settled(answer, sliding)
                 answer = answer if fault is None else replace(answer, verdict=fault)

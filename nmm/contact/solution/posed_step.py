@@ -48,12 +48,12 @@ class PosedStep:
     weight: Floats
     whole: MeanMotion | None = None
 
-    def slid(self, answer: StepAnswer, softening: Bools) -> Floats:
+    def slid(self, answer: StepAnswer, softening: Bools, before: Floats) -> Floats:
         """Return how far (m,) contacts slid under load, see `slid_under_load`."""
         problem = self.problem
         if self.whole is not None:
             problem = with_parts(problem, slip=problem.slip + self.whole.opened[1])
-        return slid_under_load(problem, answer, softening)
+        return slid_under_load(problem, answer, softening, before)
 
     def missed(self, answer: StepAnswer) -> Floats | None:
         """See `ContactSolution.missed`."""
@@ -135,7 +135,7 @@ class Posing:
             normal_rows=rows.normal,
             tangent_rows=rows.tangent,
             gap=contacts.gap,
-            slip=contacts.slip,
+            slip=contacts.slip + contacts.slid,
             normal_stiffness=normal,
             shear_stiffness=shear,
             limits=iteration.response.limits,

@@ -8,10 +8,11 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.contact.points.contact_points import ContactPoints, concatenate
-from nmm.frozen import MadeOnce
+from nmm.frozen import MadeOnce, with_parts
 
 if TYPE_CHECKING:
     from nmm.contact.detection.contacts import Contacts
+    from nmm.contact.detection.surface import Surface
     from nmm.contact.points.contact_rows import ContactRows
     from nmm.contact.points.joint_book import JointBook
     from nmm.contact.problem.step_problem import StepAnswer
@@ -105,6 +106,8 @@ class ContactRecord:
     crossed
         Vertex and edge (k,) of pairs that became contacts because the step without them let them
         pass, and that pressed.
+    began
+        The edges where the step began that the next solution corrects; None where a step begins.
     """
 
     book: "JointBook"
@@ -112,6 +115,25 @@ class ContactRecord:
     known: ContactPoints | None = None
     stored: float = 0.0
     crossed: tuple[Ints, Ints] | None = None
+    began: "Surface | None" = None
+
+
+def correcting(record: ContactRecord, solved: ContactSolution, began: "Surface") -> ContactRecord:
+    """Return the record from which the step of a solution that it keeps is corrected.
+
+    The friction of a correction is that of the whole step: what slid goes on sliding.
+    """
+    contacts = solved.contacts
+    slid = np.where(contacts.bonded, 0.0, contacts.slid + solved.sliding)
+    known, points = record.known, record.book.points
+    if known is not None:
+        known = with_parts(known, slid=slid[~contacts.is_joint])
+    if len(points):
+        joints = np.flatnonzero(contacts.is_joint)
+        joints = joints[np.isin(contacts.key[joints], points.key)]
+        points = with_parts(points, slid=slid[joints])
+    book = with_parts(record.book, points=points)
+    return with_parts(record, book=book, known=known, began=began)
 
 
 @dataclass(frozen=True)

@@ -201,6 +201,12 @@ class Stepper:
             )
         return state, contacts
 
+    def correct(self, attempt: Attempt, start: State) -> None:
+        """Let the next attempt correct the step from ``start`` of which one was accepted."""
+        laid_anew = self._lay is not None  # contacts go on as those of another model
+        if self.plan.contact is not None and attempt.solved is not None and not laid_anew:
+            self.plan.contact.correct(attempt.solved, start)
+
     def _relaid(self, change: "Change", new: Discretisation) -> State:
         """Solve blocks laid anew; places still count from where the run began."""
         start = self.reference

@@ -18,7 +18,7 @@ from nmm.interfaces.history import History
 Apart = Callable[[ContactPoints], Floats]
 
 # What a contact that goes on keeps.
-CARRIED = ("slip", "state", "normal_force", "shear_force")
+CARRIED = ("slip", "slid", "state", "normal_force", "shear_force")
 
 
 def searched_points(
@@ -94,6 +94,7 @@ def answered(points: ContactPoints, answer: StepAnswer, once_bonded: Bools) -> C
         points,
         gap=answer.gap,
         slip=answer.slip,
+        slid=np.zeros(len(points)),
         state=np.where(points.bonded, int(BONDED), state),
         normal_force=answer.normal_force,
         shear_force=answer.shear_force,

@@ -83,6 +83,7 @@ def settle(
         if attempt.motion <= SETTLED * total.motion + least:
             return SettledStep(total, contacts)
         last, way = attempt, way + attempt.motion
+        stepper.correct(attempt, state)
         attempt = stepper.attempt(_remembering(attempt.state, state), end, None, breaking)
         steady = steady + 1 if attempt.motion > SHRINKS * last.motion else 0
         total, count = joined(total, attempt), count + 1
