@@ -7,9 +7,7 @@ import numpy as np
 from integration.arrays import Floats, Ints
 from nmm.compiled import compiled
 from nmm.contact.detection.narrow.tables import thickness_of
-
-ROUNDING = 1e-9
-"""Share of an area by which it may be off, with much to spare."""
+from nmm.contact.detection.tolerances import SWEPT_AREA
 
 
 @compiled
@@ -62,7 +60,7 @@ def can_meet(
             px, py = after[v, 0] - after[e, 0], after[v, 1] - after[e, 1]
             most = _largest_area((dx, dy), (ox, oy), (wx, wy), (px, py))
             # Whoever looks closer takes lengths and thickness rounded another way.
-            if most >= (1.0 - ROUNDING) * allowed * length:
+            if most >= (1.0 - SWEPT_AREA) * allowed * length:
                 found[count] = k
                 count += 1
     return found[:count].copy()
@@ -77,7 +75,7 @@ def _largest_area(
 ) -> float:
     """Largest of ``cross(edge, offset)`` while both change evenly: a quadratic in time.
 
-    It is that of the terms' sizes, times `ROUNDING`, larger than found.
+    It is that of the terms' sizes, times `SWEPT_AREA`, larger than found.
     """
     ex, ey = edge_after[0] - edge[0], edge_after[1] - edge[1]
     ox, oy = offset_after[0] - offset[0], offset_after[1] - offset[1]
@@ -88,4 +86,4 @@ def _largest_area(
     if square < 0.0 and 0.0 < slope < -2.0 * square:
         most = max(most, first - 0.25 * slope * slope / square)
     size = abs(edge[0] * offset[1]) + abs(edge[1] * offset[0]) + abs(slope) + abs(square)
-    return most + ROUNDING * size
+    return most + SWEPT_AREA * size

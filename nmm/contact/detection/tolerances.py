@@ -32,6 +32,11 @@ CROSSED_FIRST = 1e-9
 """Share of the depth by which another edge must be nearer: a corner lies as far from both."""
 SAME_POINT = 1e-9
 """Of the mean edge: ends of edges that are no further apart are one point."""
+SAME_PLACE = 1e-9
+"""Of the size of the domain: points of two models that are nearer are one, far above rounding and
+far below cells."""
+SWEPT_AREA = 1e-9
+"""Of an area that a vertex sweeps about an edge: by how much it may be off, with much to spare."""
 SAME_ROWS = 1e-12
 """Of the largest entry: rows of chord and material that differ by less are the same, and the field
 linear along the edge."""

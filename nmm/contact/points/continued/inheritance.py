@@ -15,11 +15,9 @@ import numpy as np
 from covers.approximation.manifold import Manifold
 from covers.change.parentage import Parentage
 from integration.arrays import Bools, Floats, Ints
+from nmm.contact.detection.tolerances import SAME_PLACE
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.joint_book import JointBook, given_up
-
-# Points nearer than this share of the domain are one: far above rounding, far below cells.
-NEAR = 1e-9
 
 
 @dataclass(frozen=True)
@@ -92,7 +90,11 @@ def heirs(kin: Parentage, new: ContactPoints, old: ContactPoints) -> PointHeirs:
         np.where(found < n, found, -1) for found, n in ((parent, len(of_old)), (child, len(of_new)))
     )
     known = parent >= 0
-    same = known & (far <= NEAR * size) & (child[np.maximum(parent, 0)] == np.arange(len(parent)))
+    same = (
+        known
+        & (far <= SAME_PLACE * size)
+        & (child[np.maximum(parent, 0)] == np.arange(len(parent)))
+    )
     return PointHeirs(parent, child, same)
 
 

@@ -12,11 +12,9 @@ from covers.cutting.cut_boundary import CutBoundary
 from integration.arrays import Bools, Ints
 from integration.sparse import csr_array
 from nmm.contact.detection.contacts import Contacts, FaceContacts
+from nmm.contact.detection.tolerances import SAME_ROWS
 from nmm.contact.points.boundary_points import Sides
 from nmm.solvers.unchecked import largest
-
-# Rows of two faces that differ by no more than this part of their entries are one.
-ALIKE = 1e-12
 
 
 @dataclass(frozen=True)
@@ -47,7 +45,7 @@ class WeldedVertices:
 
         across, n = boundary.next[boundary.opposite[face]], len(boundary)
         one = _moved(sides, face) - _moved(sides, across)
-        size = ALIKE * np.abs(sides.start.rows.values[face]).max(axis=(1, 2))
+        size = SAME_ROWS * np.abs(sides.start.rows.values[face]).max(axis=(1, 2))
         alike = largest(one).reshape(-1, 2).max(axis=1) <= size
         pairs = (np.ones(int(alike.sum())), (face[alike], across[alike]))
         _, place = connected_components(csr_array(pairs, shape=(n, n)), directed=False)
