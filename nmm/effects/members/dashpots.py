@@ -66,6 +66,10 @@ class PointDashpots(Effect):
     def loss(self, before: State, after: State) -> float:
         return float(self._mean(before, after) @ self._elongation(before, after))
 
+    def work_correction(self, before: State, after: State, increment: Floats, span: Span) -> float:
+        """Work (J) that its tangent takes, of which nothing is stored: all of it is its `loss`."""
+        return self.loss(before, after) / span.weight
+
     def applied_forces(self, state: State) -> AppliedForces:
         """See `Effect.applied_forces`: those of the step that ended at the state."""
         pull = self._last(state)[:, None] * self.links.lines(state).along
