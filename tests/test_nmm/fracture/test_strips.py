@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import pytest
+from scipy.special import ellipe, ellipk
 
 import nmm
 from integration.arrays import Floats
@@ -56,6 +57,32 @@ def test_ten_tips_of_a_row_of_cracks_have_its_intensity() -> None:
     assert found.shape == (10, 2)
     # Cells of a third of half a crack; 0.06 % on cells of 0.08.
     assert found / np.sqrt(np.tan(0.3 * np.pi)) == pytest.approx(np.tile([1, 0], (10, 1)), abs=3e-3)
+
+
+@pytest.mark.parametrize("inner", [0.1, 0.4])
+def test_two_cracks_on_one_line_have_the_intensities_of_both_in_a_plane(inner: float) -> None:
+    """Cracks from ``inner`` to 1 on both sides of the middle (Willmore 1949)."""
+    wide, share = 24.0, inner**2
+    foci = [[x, 0.0] for x in (-1.0, -inner, inner, 1.0)]
+    options = f"[formulation.cover.options]\nfocus = {foci}\nradius = 0.4\ngrowth = 0.2\n"
+    found = intensities(
+        [
+            text.block("plate", "m", text.rectangle((-wide, -wide), (wide, wide))),
+            crack("l", [[-1.0, 0.0], [-inner, 0.0]]),
+            crack("r", [[inner, 0.0], [1.0, 0.0]]),
+            text.pulled_edge("up", [[-wide, wide], [wide, wide]], [0.0, 1.0]),
+            text.pulled_edge("down", [[-wide, -wide], [wide, -wide]], [0.0, -1.0]),
+            text.fixed_point("left", [-wide, -wide]),
+            text.fixed_point("right", [wide, -wide], "y"),
+            net(0.1, 11.0, "graded", options),
+        ]
+    )
+    ratio = ellipe(1 - share) / ellipk(1 - share)
+    outside = (1 - ratio) * np.sqrt(np.pi / (1 - share))
+    inside = (ratio - share) * np.sqrt(np.pi / (inner * (1 - share)))
+    expected = [[outside, 0], [inside, 0], [inside, 0], [outside, 0]]
+    # A plate 24 times as wide as the cracks has 1e-3 more; cells are as long as the ligament is.
+    assert found == pytest.approx(np.array(expected), abs=3e-3 * outside)
 
 
 FOUR_ALIKE = STIFF / np.sqrt(2)  # stress E' over the root of twice the distance
