@@ -70,8 +70,7 @@ class Control(ABC):
     def idle(self, events: int, softened: bool) -> bool:
         """Whether nothing is controlled yet: the load is then what grows, up to the next event.
 
-        ``events`` is their number so far, ``softened`` whether the last ones were of bonds that
-        soften.
+        ``events`` is their number so far, ``softened`` whether any was of bonds that soften.
         """
         return False
 

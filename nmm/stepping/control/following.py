@@ -187,7 +187,8 @@ class _Following:
             return self._shorter(at, step, attempt)
         after = self._told(at, attempt, state, contacts, event.way)
         brittle, shed = self.trials.give_way(attempt)
-        after = replace(after, softened=not brittle, events=at.events + 1, shed=shed)
+        softened = at.softened or not brittle
+        after = replace(after, softened=softened, events=at.events + 1, shed=shed)
         if not brittle or self.control.by_load:
             return after
         return self._balanced(after)
@@ -206,7 +207,7 @@ class _Following:
             brittle, _ = trials.give_way(found.attempt)
             at = replace(
                 at,
-                softened=not brittle,
+                softened=at.softened or not brittle,
                 events=at.events + 1,
                 changed=at.changed and not brittle,
             )

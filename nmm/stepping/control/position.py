@@ -29,7 +29,7 @@ class OnPath:
     peak
         Largest load factor so far.
     softened
-        Whether the bonds that gave way last soften.
+        Whether any bond that gave way softens.
     changed
         Whether the model has changed in this state, which is not in balance again yet.
     events
