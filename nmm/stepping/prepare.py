@@ -4,6 +4,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from nmm.formulation import Formulation
+from nmm.model.discretisation import Discretisation
 from nmm.model.fault_places import placed
 from nmm.stepping.posed import pose
 from nmm.stepping.simulation import Simulation
@@ -27,6 +28,7 @@ def prepare(scene: "Scene", formulation: Formulation) -> Simulation:
     stepper = Stepper(
         posed.discretisation, posed.integrator, posed.solver, setup.kinematics, lay=posed.lay
     )
+    _make_what_steps_ask_for(posed.discretisation)
     limits = formulation.loading
     stepper.budget = Budget(limits.budget, limits.max_steps, begun)
     stepper.seconds["covers"], stepper.seconds["effects"] = posed.covers, posed.effects
@@ -48,3 +50,10 @@ def prepare(scene: "Scene", formulation: Formulation) -> Simulation:
         with placed(scene, formulation):
             check_path(loading.control, stepper, posed.formulation)
     return ready
+
+
+def _make_what_steps_ask_for(discretisation: Discretisation) -> None:
+    """Make the matrices that each step asks for and no check does, before the first step."""
+    manifold, inertia = discretisation.model.manifold, discretisation.plan.inertia
+    mass = None if inertia is None else inertia.mass
+    _ = manifold.rigid_modes, manifold.stretch_modes, mass
