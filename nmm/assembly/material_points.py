@@ -58,6 +58,15 @@ class MaterialPoints:
 
     def moved(self, frames: Frames, deformation: Floats) -> Floats:
         """Return the displacement (m, 2) from the reference place, without cancellation."""
+        own, carried = self.own_way(frames, deformation), self.carried(frames)
+        return own if carried is None else own + carried
+
+    def carried(self, frames: Frames) -> Floats | None:
+        """Return how far driven ground has carried the points (m, 2); None where nowhere (m)."""
+        return None if frames.carried is None else frames.carried[self.body]
+
+    def own_way(self, frames: Frames, deformation: Floats) -> Floats:
+        """Return the displacement (m, 2) beside that by which driven ground has carried them."""
         assert frames.way is not None
         local = self.rows.apply(deformation)
         if frames.tilt is not None:

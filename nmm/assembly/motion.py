@@ -29,6 +29,7 @@ def move(model: Model, state: State, increment: Floats) -> State:
         frames.angle + rigid[:, 2],
         frames.tilt,
         None if frames.way is None else frames.way + shift,
+        frames.carried,
     )
     # The rounded increment of the angle: a velocity must not drift against its axes.
     turn = rotation_matrices(moved.angle - frames.angle)
@@ -74,6 +75,22 @@ def strain_only(
     far = None if frames.way is None else frames.way + shift
     moved = replace(frames, centre=frames.centre + shift, tilt=tilt, way=far)
     return replace(after, frames=moved)
+
+
+def carried_on(state: State, ground: Floats, way: Floats, beside: Floats) -> State:
+    """Return the state with its bodies carried along with ground that supports drive.
+
+    Parameters
+    ----------
+    ground
+        (B, 2) from where the ways of bodies count then (m).
+    way, beside
+        (B, 2) how far they are carried, and by how much their ways beside it change (m).
+    """
+    frames = state.frames
+    assert frames.way is not None
+    places = {"centre": frames.centre + way, "way": frames.way + beside}
+    return with_parts(state, frames=replace(frames, carried=ground, **places))
 
 
 def middle(before: State, after: State) -> State:

@@ -33,12 +33,23 @@ class Frames:
     way
         (B, 2) how far the centroids have come from where they were laid (m): what differences of
         places have lost to the rounding of coordinates. None where it was not followed.
+    carried
+        (B, 2) from where the ``way`` counts (m): where the ground is that supports drive them by,
+        whose springs need the digits of the way below it. None is where they were laid.
     """
 
     centre: Floats
     angle: Floats
     tilt: Floats | None = None
     way: Floats | None = None
+    carried: Floats | None = None
+
+    @property
+    def whole_way(self) -> Floats | None:
+        """(B, 2) the way with that by which ground has carried the bodies (m)."""
+        if self.way is None or self.carried is None:
+            return self.way
+        return np.asarray(self.way + self.carried)
 
     @MadeOnce
     def rotation(self) -> Floats:

@@ -64,12 +64,26 @@ class Interface:
 
         Sides are bonded as they lie: a gap that the search for shared edges allows is no jump.
         """
-        ways = [side.points.moved(state.frames, state.deformation) for side in self.sides]
-        return np.asarray(ways[0] - ways[1] if len(ways) > 1 else ways[0])
+        own, carried = self.motions(state)
+        return own + carried
 
-    def jump(self, motion: Floats, end: Instant) -> Floats:
-        """Return the part of a `motion` that is held, less that of the ground (m, 2)."""
-        return np.asarray(self.held * (motion - self.anchor - self.displacement(end)))
+    def motions(self, state: State) -> tuple[Floats, Floats]:
+        """Return the `motion` apart from that by which driven ground has carried the sides."""
+        frames = state.frames
+        ways = [side.points.own_way(frames, state.deformation) for side in self.sides]
+        found = [side.points.carried(frames) for side in self.sides]
+        carried = [np.zeros(2) if one is None else one for one in found]
+        if len(ways) == 1:
+            return ways[0], carried[0]
+        return np.asarray(ways[0] - ways[1]), np.asarray(carried[0] - carried[1])
+
+    def jump(self, motions: tuple[Floats, Floats], end: Instant) -> Floats:
+        """Return the part of `motions` that is held, less that of the ground (m, 2).
+
+        The ground and what it has carried differ by no digit of the way they went together.
+        """
+        own, carried = motions
+        return np.asarray(self.held * (own - self.anchor - (self.displacement(end) - carried)))
 
     def rows(self, state: State) -> tuple[Ints, Floats]:
         """Unknowns (m, L) and rows (m, 2, L) of the jump, in global axes."""

@@ -12,6 +12,7 @@ from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
+from nmm.constraints.driven_bodies import DrivenBodies, driven
 from nmm.constraints.imposition import Imposition, Method, support_method
 from nmm.constraints.interface import Interface, nearest
 from nmm.constraints.laid_springs import (
@@ -140,6 +141,15 @@ class Supports(TiedInterfaces):
     @property
     def resolves(self) -> float | None:
         return min((one.step for one in self._grounds if one.step is not None), default=None)
+
+    def driven(self, state: State, end: Instant) -> DrivenBodies | None:
+        """Return how supports carry bodies to the end of a step, see `driven_bodies.driven`.
+
+        None as well where multipliers hold supports, in which no digit is lost.
+        """
+        if self._spaces:
+            return None
+        return driven(self.ties, self._jumps(state, Instant.of(state)), state, end)
 
     def work(self, before: State, after: State) -> float:
         """Mean reaction of each driven support times the way it is driven."""

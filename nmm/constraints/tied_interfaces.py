@@ -50,7 +50,8 @@ class TiedInterfaces(Effect):
         self._n = n_unknowns
         self._kept: tuple[Floats, csc_array] | None = None  # the matrix, at angles
         self._motions = KeptOfPlaces(self._moved)
-        self._last: tuple[list[Floats], Instant, list[Floats]] | None = None  # jumps of motions
+        # Jumps of motions.
+        self._last: tuple[list[tuple[Floats, Floats]], Instant, list[Floats]] | None = None
         self._still = False  # whether the ground stands still as time goes on
         self._spaces = list({id(t.shared): t.shared for t in ties if t.shared}.values())
         unlike = [t.interface.bodies for t in ties if t.turns]
@@ -248,9 +249,9 @@ class TiedInterfaces(Effect):
         same = one.load_factor == other.load_factor
         return same and (self._still or one.time == other.time)
 
-    def _moved(self, state: State) -> list[Floats]:
-        """Relative displacement of the sides."""
-        return [tie.interface.motion(state) for tie in self.ties]
+    def _moved(self, state: State) -> list[tuple[Floats, Floats]]:
+        """Relative displacement of the sides, that by driven ground apart."""
+        return [tie.interface.motions(state) for tie in self.ties]
 
 
 _NOTHING = (np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros(0))

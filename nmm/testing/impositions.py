@@ -61,7 +61,7 @@ def _at(model: Model, deformation: Floats) -> State:
 
 
 def _jump(interface: Interface, state: State) -> Floats:
-    return interface.jump(interface.motion(state), Instant(0.0, 0.0))
+    return interface.jump(interface.motions(state), Instant(0.0, 0.0))
 
 
 def _slopes(tie: Imposition, name: str, model: Model, start: Floats, way: Floats) -> None:

@@ -67,6 +67,7 @@ def _frames(old: Model, new: Model, kin: Parentage, frames: Frames, declared: Fr
         np.where(fresh, declared.angle, frames.angle[parent]),
         None if frames.tilt is None else np.where(fresh, 0.0, tilt),
         None if frames.way is None else np.where(one, declared.way, far[parent] + turned),
+        None if frames.carried is None else np.where(one, 0.0, frames.carried[parent]),
     )
 
 
@@ -85,7 +86,7 @@ def _centred(new: Model, frames: Frames, deformation: Floats, way: Floats) -> tu
         return frames, deformation
     shift = frames.to_global(np.arange(len(way)), way)
     far = None if frames.way is None else frames.way + shift
-    moved = Frames(frames.centre + shift, frames.angle, frames.tilt, far)
+    moved = Frames(frames.centre + shift, frames.angle, frames.tilt, far, frames.carried)
     rigid = np.column_stack([way, np.zeros(len(way))])
     return moved, np.asarray(deformation - new.manifold.rigid_modes @ rigid.ravel())
 

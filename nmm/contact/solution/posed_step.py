@@ -15,6 +15,7 @@ from nmm.contact.laws.time_weighting import RaisedFaces, TimeWeighting, end_shar
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.contact_rows import ContactRows
 from nmm.contact.points.half_way.mean_motion import MeanMotion
+from nmm.contact.problem.row_products import along
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform
 from nmm.contact.solution.request import StepRequest
@@ -129,13 +130,14 @@ class Posing:
             one, other = self.softness[contacts.edge_a], self.softness[contacts.edge_b]
             share = np.where(own, 1.0, np.minimum(one, other))
             normal, shear = share * normal, share * shear
+        gap, slip = moved_jumps(contacts, rows, request)
         return StepProblem(
             matrix=request.matrix,
             force=request.force,
             normal_rows=rows.normal,
             tangent_rows=rows.tangent,
-            gap=contacts.gap,
-            slip=contacts.slip + contacts.slid,
+            gap=gap,
+            slip=slip + contacts.slid,
             normal_stiffness=normal,
             shear_stiffness=shear,
             limits=iteration.response.limits,
@@ -155,6 +157,16 @@ class Posing:
             return None
         damping, stiffness = self.laws.damping(contacts), problem.normal_stiffness
         return self.mass.dashpots(contacts, damping, stiffness, problem.normal_rows, step)
+
+
+def moved_jumps(
+    contacts: ContactPoints, rows: ContactRows, request: StepRequest
+) -> tuple[Floats, Floats]:
+    """Return gaps and slips (m,) where driven ground has carried bodies (m)."""
+    gap, slip, way = contacts.gap, contacts.slip, request.carried
+    if way is None:
+        return gap, slip
+    return gap + along(rows.normal, way), slip + along(rows.tangent, way)
 
 
 def _weighted(

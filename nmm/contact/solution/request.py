@@ -41,6 +41,9 @@ class StepRequest:
         springs are linear from the start.
     among
         See `StepProblem`.
+    carried
+        (n,) motion of bodies with driven ground, from the end of which unknowns count; None
+        where there is none.
     """
 
     matrix: csc_array
@@ -55,3 +58,4 @@ class StepRequest:
     time: float | None = None
     foreseen: Floats | None = None
     among: Floats | None = None
+    carried: Floats | None = None

@@ -12,6 +12,7 @@ from nmm.contact.points.half_way.mean_motion import Forces
 from nmm.contact.problem.transform import Transform
 from nmm.contact.solution.driver import ContactSolver
 from nmm.contact.solution.geometry import ContactGeometry
+from nmm.contact.solution.posed_step import moved_jumps
 from nmm.contact.solution.record import ContactRecord, ContactSolution
 from nmm.contact.solution.request import StepRequest
 from nmm.contact.solution.step_bonds import StepBonds
@@ -60,7 +61,9 @@ class ContactSteps:
         mixed, posed = self.bonds.posed(contacts, rows, request, state)
 
         def besides(present: ContactPoints) -> list[Transform]:
-            tied = self.bonds.tied(present, state, rows, request.weight, request.time)
+            gap, slip = moved_jumps(present, rows, request)
+            there = present if request.carried is None else replace(present, gap=gap, slip=slip)
+            tied = self.bonds.tied(there, state, rows, request.weight, request.time)
             free = present if tied is None else present.take(~present.tied)
             means = None if space is None else FaceMeans.of(free, surface, space)
             return [part for part in (tied, means, request.null_space) if part is not None]

@@ -86,9 +86,10 @@ def limit_point(stepper: Stepper, state: State, factor: float) -> LimitPoint | N
 def _way(stepper: Stepper, state: State) -> Floats:
     """Return the displacements (n,) of the unknowns, those of bodies as a whole in their axes."""
     frames, modes = state.frames, stepper.model.manifold.rigid_modes
-    assert frames.way is not None
+    way = frames.whole_way
+    assert way is not None
     turned = frames.angle if frames.tilt is None else frames.angle + frames.tilt
-    moved = frames.to_body(np.arange(len(turned)), frames.way)
+    moved = frames.to_body(np.arange(len(turned)), way)
     return np.asarray(state.deformation + modes @ np.column_stack([moved, turned]).ravel())
 
 

@@ -101,6 +101,22 @@ class InertiaTerms:
 
 
 @dataclass(frozen=True)
+class Carriage:
+    """Bodies as driven ground has carried them before a step is solved for the way that is left.
+
+    Attributes
+    ----------
+    state
+        With the bodies there.
+    way
+        (n,) the unknowns of that motion.
+    """
+
+    state: State
+    way: Floats
+
+
+@dataclass(frozen=True)
 class Equations:
     """``matrix @ d = force`` for the unknowns ``d`` of a step.
 
@@ -121,6 +137,8 @@ class Equations:
     among
         (n,) size of the forces that ``force`` is the sum of, where rounding of them counts: of
         dependent functions. In time that of elastic and applied forces at the end of the step.
+    carriage
+        Where driven ground has carried bodies, from where ``d`` counts; None where nowhere.
     """
 
     state: State
@@ -132,6 +150,12 @@ class Equations:
     inertia: InertiaTerms | None = None
     symmetric: bool = True
     among: Floats | None = None
+    carriage: Carriage | None = None
+
+    @property
+    def origin(self) -> State:
+        """Where the unknowns count from."""
+        return self.state if self.carriage is None else self.carriage.state
 
 
 def spinning(equations: Equations, inertia: "Inertia", end: State) -> Equations:

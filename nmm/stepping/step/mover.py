@@ -97,7 +97,7 @@ class Mover:
 
     def _faster(self, equations: Equations, increment: Floats, push: Floats | None) -> State:
         """Return the state at the start with the rates of the end."""
-        state, step, rule = equations.state, equations.step, equations.rule
+        state, step, rule = equations.origin, equations.step, equations.rule
         if step is None or equations.inertia is None:
             return state
         before, less = rule.kinetic_factor * state.velocity, equations.inertia.turned_less

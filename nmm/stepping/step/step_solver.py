@@ -5,8 +5,11 @@ Only what may be dropped at any time is kept: factors, patterns and lists.
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from integration.arrays import Floats
 from nmm.assembly.kinematics import Kinematics
+from nmm.assembly.motion import carried_on
 from nmm.assembly.state import State
 from nmm.effects.base import Instant, Span
 from nmm.errors import SolveError
@@ -14,11 +17,12 @@ from nmm.frozen import with_parts
 from nmm.integrators.base import Integrator
 from nmm.model.discretisation import CurrentDiscretisation
 from nmm.solvers.linear import Factor, LinearSolver
+from nmm.solvers.unchecked import product
 from nmm.stepping.step.assembly import Assembly
 from nmm.stepping.step.booking import booked
 from nmm.stepping.step.carried import CarriedState
 from nmm.stepping.step.clock import Clock
-from nmm.stepping.step.equations import Equations, Linearisation, spinning
+from nmm.stepping.step.equations import Carriage, Equations, Linearisation, spinning
 from nmm.stepping.step.free_step import FreeStepSolver
 from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.nonlinear.inner import InternalForces
@@ -129,14 +133,19 @@ class StepSolver:
 
         def solve(matter: Linearisation | None, before: Attempt | None = None) -> Solution:
             with self._clock.phase("assembly"):
-                given = state, end, step, rule, carried.anchored, matter
+                start = state if carriage is None else carriage.state
+                given = start, end, step, rule, carried.anchored, matter
                 equations = self._assembly.of(*given)
+                if carriage is not None:
+                    equations = with_parts(equations, state=state, carriage=carriage)
                 if before is not None and plan.inertia is not None:
                     equations = spinning(equations, plan.inertia, before.state)
             return self._solved(equations, (breaking, broken), carried.reach, before)
 
         model, plan = self._current.model, self._current.plan
-        if model.matter is None and not plan.bent:
+        linear = model.matter is None and not plan.bent
+        carriage = self._carriage(state, end) if linear and step is None else None
+        if linear:
             equations, found = solve(None)
         else:
             try:
@@ -154,6 +163,19 @@ class StepSolver:
                 driven = plan.supports.work_of_rise(state, found.state)
         work = booked(equations, found.increment, found.solved, missed, off, driven)
         return with_parts(found, booked=work)
+
+    def _carriage(self, state: State, end: Instant) -> Carriage | None:
+        """Return where driven ground has carried bodies that may touch; None where nowhere."""
+        model, supports, way = self._current.model, self._current.plan.supports, state.frames.way
+        if self._touching is None or supports is None or way is None:
+            return None
+        driven = supports.driven(state, end) if self._kinematics.turns else None
+        if driven is None:
+            return None
+        bodies, rigid = np.arange(len(driven.way)), np.zeros((len(driven.way), 3))
+        rigid[:, :2] = state.frames.to_body(bodies, driven.way)
+        moved = carried_on(state, driven.ground, driven.way, driven.beside)
+        return Carriage(moved, product(model.manifold.rigid_modes, rigid.ravel()))
 
     def _bent(
         self, state: State, end: Instant, step: float | None, rule: Integrator, solve: Solve

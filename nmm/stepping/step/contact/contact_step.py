@@ -131,7 +131,7 @@ class ContactStepSolver:
 
     def _conditions(self, equations: Equations) -> "NullSpace | None":
         """Return the conditions of supports by multipliers."""
-        border = self._current.plan.border(equations.state, equations.end)
+        border = self._current.plan.border(equations.origin, equations.end)
         if border is None:
             return None
         from nmm.contact.enforcement.null_space import NullSpace
@@ -163,6 +163,7 @@ class ContactStepSolver:
             time=equations.end.time,
             foreseen=None if foreseen is None else foreseen.increment,
             among=equations.among,
+            carried=None if equations.carriage is None else equations.carriage.way,
         )
         end = None if foreseen is None else foreseen.state
         with self._clock.phase("solve"):
