@@ -16,9 +16,11 @@ PHASES = {
     "covers": "#6a4c93",
     "effects": "#b8a1cf",
     "search": "#e08e0b",
+    "contact": "#f3d98b",
     "assembly": "#93aac2",
     "solve": "#1d4e89",
     "update": "#2a7f62",
+    "reports": "#7fb069",
     "rest": "#c9c5ba",
 }
 EFFECTS = {

@@ -45,8 +45,10 @@ def summed_up(
     """
     stepper, totals = recorder.stepper, recorder.totals
     lengths = totals.lengths
-    condition, start = stepper.condition(state), totals.since or start
-    findings = audit(EndedRun(*asked, stepper, recorder, start, state, verdict, condition))
+    start = totals.since or start
+    with stepper.clock.phase("audits"):
+        condition = stepper.condition(state)
+        findings = audit(EndedRun(*asked, stepper, recorder, start, state, verdict, condition))
     verdict, growth = judged(verdict, findings), stepper.plan.fracture
     load = None if verdict.load_factor is None else stepper.plan.scaled_load(verdict.load_factor)
     return replace(
@@ -82,17 +84,19 @@ def summed_up(
 def _by_effect(stepper: Stepper, recorder: Recorder) -> dict[str, float]:
     """Return seconds by effect: of its own calls, and of phases that are there because of it.
 
-    Search is contact's, and so is every solution of a step but the one that it would have without
-    it. Events and the changes that they lead to are those of the one effect that asks for them.
+    Search is contact's, and so is what poses and judges its steps and every solution of one but
+    that which it would have without it. Changes that events lead to are those of the one effect
+    that asks for them.
     """
     found, phases, totals = dict(stepper.plan.seconds), stepper.seconds, recorder.totals
     if stepper.plan.contact is not None:
         more = max(totals.passes - recorder.steps, 0) / max(totals.passes, 1)
-        caused = phases.get("search", 0.0) + more * phases.get("solve", 0.0)
+        own = phases.get("search", 0.0) + phases.get("contact", 0.0)
+        caused = own + more * phases.get("solve", 0.0)
         found["contact"] = found.get("contact", 0.0) + caused
     if len(stepper.plan.askers) == 1:
         (asker,) = stepper.plan.askers
-        found[asker] = found.get(asker, 0.0) + phases.get("events", 0.0)
+        found[asker] = found.get(asker, 0.0) + phases.get("change", 0.0)
     return found
 
 

@@ -213,7 +213,10 @@ class Plan(NamedEffects):
 
     def work(self, before: State, after: State) -> float:
         """Return the work of all applied forces (J)."""
-        return sum(effect.work(before, after) for effect in self.having("work"))
+        return sum(
+            self.timed(name, partial(effect.work, before, after))
+            for name, effect in self.named("work")
+        )
 
     def segments(self, state: State) -> MemberSegments | None:
         """Return the members of all effects; None without any."""
@@ -242,7 +245,10 @@ class Plan(NamedEffects):
 
     def losses(self, before: State, after: State) -> dict[str, float]:
         """Return what each effect took for good in an accepted step (J)."""
-        return {name: one.loss(before, after) for name, one in self.named("loss")}
+        return {
+            name: self.timed(name, partial(one.loss, before, after))
+            for name, one in self.named("loss")
+        }
 
     def first_work(self, before: State, after: State) -> float:
         """Return the work (J) that `work` lacks in the first step of statics."""
@@ -256,19 +262,21 @@ class Plan(NamedEffects):
     def energies(self, state: State) -> dict[str, float]:
         """Return the energy (J) that effects store, by its columns of the history."""
         return {
-            column: sum([one.energy(state) for one in effects], start=0.0)
+            column: sum(
+                [self.timed(name, partial(one.energy, state)) for name, one in effects], start=0.0
+            )
             for column, effects in self._stores
         }
 
     @cached_property
-    def _stores(self) -> list[tuple[str, list[Effect]]]:
-        """Effects that store energy, by the columns of it."""
+    def _stores(self) -> list[tuple[str, list[tuple[str, Effect]]]]:
+        """Effects that store energy with their names, by the columns of it."""
         shared = {
-            column: [self.effects[name] for name in names if name in self.effects]
+            column: [(name, self.effects[name]) for name in names if name in self.effects]
             for column, names in STORES.items()
         }
         own = {
-            f"energy:{name.removeprefix(OWN)}": [effect]
+            f"energy:{name.removeprefix(OWN)}": [(name, effect)]
             for name, effect in self.named("energy")
             if not any(name in names for names in STORES.values())
         }

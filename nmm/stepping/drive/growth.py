@@ -7,6 +7,7 @@ step finds the next factor, be it larger or smaller: a path that growing loads c
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 from nmm.assembly.state import State
@@ -85,7 +86,8 @@ class _Growing:
             if isinstance(trial, RunVerdict):
                 return trial
             with self.stepper.clock.phase("events"):
-                share = fracture.reached(trial.state)
+                reached = partial(fracture.reached, trial.state)
+                share = self.stepper.plan.timed(fracture.name, reached)
             if share is None:
                 return self._ended("every crack has come to an end", at)
             if abs(share - 1) < AT_TOUGHNESS:

@@ -100,7 +100,8 @@ def enter(
     stepper: Stepper, recorder: Recorder, state: State, staged: "Staged", integrator: "Integrator"
 ) -> State:
     """Solve what the stage has from now on, tell what changed; return the state carried over."""
-    change = _entered(stepper, state, staged, integrator)
+    with stepper.clock.phase("stages"):
+        change = _entered(stepper, state, staged, integrator)
     before = recorder.ledger.change_energy
     follow(recorder, change, reset=staged.stage.reset)
     added = recorder.ledger.change_energy - before

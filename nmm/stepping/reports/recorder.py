@@ -80,10 +80,11 @@ class Recorder:
         ``stands`` is its end where blocks are laid anew after each step. With ``anew`` it only
         finds the balance after a change of what is solved.
         """
-        self._book(before, attempt, stands, anew)
-        row = self._row(before, attempt, contacts)
         declared, after = self.declared, attempt.state
-        self.sink.row(row | declared.row(self.stepper.plan, lambda: self.view(after, contacts)))
+        with self.stepper.clock.phase("reports"):
+            self._book(before, attempt, stands, anew)
+            row = self._row(before, attempt, contacts)
+            self.sink.row(row | declared.row(self.stepper.plan, lambda: self.view(after, contacts)))
         counted = [f"{count} {name}" for name, count in self.totals.counts.items() if count]
         noun = "pass" if attempt.passes == 1 else "passes"
         return f"{attempt.passes} {noun}, contacts: {', '.join(counted)}" if counted else ""
@@ -187,10 +188,11 @@ class Recorder:
 
     def frame(self, state: State, stage: str, contacts: "ContactPoints | None") -> None:
         """Hand over a frame."""
-        view = self.view(state, contacts)
-        made = framed(self.stepper, view, self.declared, self.zero, self.totals.frames, stage)
-        self.sink.frame(made)
-        self.totals = with_parts(self.totals, frames=self.totals.frames + 1, stored=True)
+        frames = self.totals.frames
+        with self.stepper.clock.phase("reports"):
+            view = self.view(state, contacts)
+            self.sink.frame(framed(self.stepper, view, self.declared, self.zero, frames, stage))
+        self.totals = with_parts(self.totals, frames=frames + 1, stored=True)
 
     def last(self, state: State, stage: str, contacts: "ContactPoints | None") -> None:
         """Hand over the last state of a stretch, unless that was done."""

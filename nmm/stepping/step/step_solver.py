@@ -215,7 +215,8 @@ class StepSolver:
         try:
             if self._touching is None:
                 return equations, self._alone.attempt(equations)
-            return self._touching.attempt(equations, *bonds, reach, before)
+            with self._clock.phase("contact"):
+                return self._touching.attempt(equations, *bonds, reach, before)
         except SolveError as fault:
             return equations, Attempt.failed(equations.state, fault)
 

@@ -242,7 +242,9 @@ class Stepper:
         The next step is a first one: no acceleration is known, and nothing is kept for speed.
         ``integrator`` is another one if the change asks for it.
         """
-        self.follow(change, self.discretisation.after(change))
+        with self.clock.phase("effects"):
+            new = self.discretisation.after(change)
+        self.follow(change, new)
         contact = self.plan.contact is not None
         solver = solver_of_run(change.setup, change.new.manifold, contact)
         if integrator is not None:
