@@ -72,7 +72,8 @@ def ablate(
 
     Each effect that the scene calls for is left out in a run of its own, and so are damping, finite
     rotation, inertia and friction. The table says by which share of their size the quantities
-    change, and which share of the seconds is saved; a line below it what matters, most first.
+    change, and which share of the seconds is saved; lines below it what matters and what takes
+    long, most first.
 
     It takes as many runs as lines; short ones are made once more, for what the first compiles.
     """
@@ -81,12 +82,13 @@ def ablate(
         import nmm
         from nmm.results.storage.writing import told, write_text
         from nmm.study.ablation.ablate import ablate as run_without
-        from nmm.study.ablation.page import ablation_table, ablation_verdict
+        from nmm.study.ablation.page import ablation_costs, ablation_table, ablation_verdict
 
         ((_, method),) = formulations_of(scene, [formulation] if formulation else []).items()
         with progress_bar(quiet) as progress:
             found = run_without(nmm.read_scene(scene), method, quantity or (), repeats, progress)
-        lines = [*ablation_table(found), "", ablation_verdict(found)]
+        said = ablation_verdict(found), ablation_costs(found)
+        lines = [*ablation_table(found), "", *said]
         for line in lines:
             typer.echo(line)
         if out is not None:

@@ -29,7 +29,7 @@ TABLES = {
     "bars": ("bars",),
     "foundations": ("foundations",),
     "masses": ("masses",),
-    "viscous boundaries": ("viscous_boundaries",),
+    "viscous boundaries": ("viscous_boundaries", "free_fields"),
     "free fields": ("free_fields",),
     "heat": ("heat", "temperatures", "heat_fluxes", "heat_sources", "convections"),
     "seepage": ("seepage", "heads", "inflows"),

@@ -8,6 +8,8 @@ LONGEST = 110
 """Letters of a verdict on the page; a fault may have more."""
 SEEN = 1e-3
 """Share of the quantities from which a change is said to matter."""
+LONG = 0.1
+"""Share of the seconds from which an effect is said to take long; they scatter by less."""
 
 
 def ablation_table(found: Ablation) -> list[str]:
@@ -34,6 +36,15 @@ def ablation_verdict(found: Ablation) -> str:
     rest = [name for name in order if most[name] < SEEN]
     said = f"matters: {', '.join(matter) or 'none'}"
     return f"{said}; below {100 * SEEN:g} %: {', '.join(rest) or 'none'}"
+
+
+def ablation_costs(found: Ablation) -> str:
+    """Return in a sentence what takes long, most first, of what the scene ends alike without."""
+    alike = [row for row in found.rows if row.verdict == found.whole.verdict]
+    saved = {row.name: found.saved(row) for row in alike if found.saved(row) >= LONG}
+    order = sorted(saved, key=lambda name: -saved[name])
+    long = ", ".join(f"{name} ({100 * saved[name]:.3g} % of the seconds)" for name in order)
+    return f"takes long: {long or f'no effect, none {100 * LONG:g} % of the seconds'}"
 
 
 def _line(cells: list[str]) -> str:

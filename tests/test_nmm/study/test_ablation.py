@@ -7,9 +7,9 @@ import nmm
 from nmm.errors import NmmError
 from nmm.formulation import Formulation
 from nmm.model.called_for import CALLS
-from nmm.study.ablation.ablate import ablate
+from nmm.study.ablation.ablate import Ablation, AblationRow, ablate
 from nmm.study.ablation.omissions import TABLES, omissions
-from nmm.study.ablation.page import ablation_table, ablation_verdict
+from nmm.study.ablation.page import ablation_costs, ablation_table, ablation_verdict
 from nmm.study.cases import measure as measuring
 from nmm.study.cases.variants import StudyCase
 from nmm.verification import text
@@ -116,6 +116,30 @@ def test_the_verdict_names_what_matters_most_first(thrown):
     wanted = "initial velocity (100 %), gravity (65.4 %), load lift (6.67 %)"
     falls = "matters: inertia (collapsed without)"
     assert ablation_verdict(thrown) == f"{falls}, {wanted}; below 0.1 %: finite rotation"
+
+
+def test_free_fields_go_with_the_viscous_boundary_that_is_their_base():
+    tables = {
+        "viscous_boundaries": [{"name": "base"}],
+        "free_fields": [{"name": "side", "base": "base"}],
+        "inertia": {},
+    }
+    left = {one.name: set(one.scene) for one in omissions(tables, {})}
+    assert left["viscous boundaries"] == {"inertia"}
+    assert left["free fields"] == {"inertia", "viscous_boundaries"}
+
+
+def test_what_takes_long_is_told_of_runs_that_end_alike():
+    """Of 4 s contact takes 3 and heat 1; what falls at once without gravity is no saving."""
+    rows = [("heat", 3.0), ("contact", 1.0), ("gravity", 0.1), ("friction", 3.9)]
+    ends = {"gravity": "collapsed"}
+    found = Ablation(
+        ("energy",),
+        AblationRow("the whole scene", (1.0,), 4.0, "converged"),
+        tuple(AblationRow(name, (1.0,), s, ends.get(name, "converged")) for name, s in rows),
+    )
+    wanted = "contact (75 % of the seconds), heat (25 % of the seconds)"
+    assert ablation_costs(found) == f"takes long: {wanted}"
 
 
 def test_the_verdict_names_first_what_the_scene_collapses_without():
