@@ -26,6 +26,7 @@ from nmm.registry import Registry
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from nmm.assembly.tractions.held_edges import HeldEdge
     from nmm.constraints.nitsche.volume_lift import PressureLift
     from nmm.formulation import SupportMethod
 
@@ -111,6 +112,10 @@ class Imposition(ABC):
     def gap_volume(self, state: State, jump: Floats, k: int) -> Floats:
         """Volumes (k,) left open, for a model's k pressures (m2)."""
         return np.zeros(k)
+
+    def held_edge(self, state: State, jump: Floats) -> "HeldEdge | None":
+        """Return what `added` tractions work on; None where there are none."""
+        return None
 
     @property
     def free(self) -> Bools:

@@ -18,6 +18,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import middle
 from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
+from nmm.assembly.tractions.held_edges import HeldEdge
 from nmm.constraints.imposition import Imposition
 from nmm.constraints.interface import joined
 from nmm.constraints.turned_axes import rounded, turned_axes
@@ -152,6 +153,11 @@ class TiedInterfaces(Effect):
 
     def receive_stresses(self, stresses: Sequence[StressAt]) -> None:
         self._stresses = stresses
+
+    def held_edges(self, state: State, end: Instant) -> list[HeldEdge]:
+        """See `Effect.held_edges`."""
+        found = (tie.held_edge(state, jump) for tie, jump in self._each(state, end))
+        return [one for one in found if one is not None]
 
     def _added(self, tie: Imposition, state: State, end: Instant) -> Floats:
         """Forces (m, 2) in N on the first side of a tie by stresses that other effects add."""

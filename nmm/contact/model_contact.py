@@ -29,6 +29,7 @@ from nmm.contact.solution.step_bonds import StepBonds
 from nmm.frozen import with_parts
 
 if TYPE_CHECKING:
+    from nmm.assembly.tractions.held_edges import HeldEdge
     from nmm.contact.candidates.candidates import Candidates
     from nmm.contact.candidates.held_back import Crossed
     from nmm.contact.detection.contacts import Contacts
@@ -255,6 +256,13 @@ class ModelContact:
     def near(self, state: State, reach: float) -> "tuple[tuple[csr_array, csr_array], Limits]":
         """Return rows and strength of contacts that bonds hold or that are open by ``reach``."""
         return self._candidates.near(self.record, state, reach)
+
+    def held(self, state: State) -> "HeldEdge | None":
+        """Return the whole bonds that consistent terms hold as an edge; None without any."""
+        if self.bonds.terms is None:
+            return None
+        now = self._candidates.joints(self.record.book, state)
+        return self.bonds.held(now, state, self.geometry.rows(now, state))
 
     def energy(self, state: State) -> float:
         """Energy of contacts as last committed (J); see `ContactSteps.energy`."""

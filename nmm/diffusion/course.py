@@ -111,6 +111,11 @@ class FieldCourse:
         """The field at which the step begins; None where it is steady and was not asked for."""
         return self._began
 
+    def count_room_from(self, taken_in: Floats) -> None:
+        """Count what strain makes room for from a storage (n,) on, that at the start of a step."""
+        assert self._began is not None
+        self._began = replace(self._began, taken_in=taken_in)
+
     def make_room(self, time: float, taken_in: Floats) -> None:
         """Let strain have made room (n,) at the end of the step."""
         assert self._began is not None

@@ -67,6 +67,13 @@ class FieldStress:
         rise = self._rows(elements, points) @ unknowns
         return np.asarray(-rise[:, None] * self.stress[elements])
 
+    def units(self, elements: Ints, points: Floats) -> tuple[Floats, csr_array]:
+        """Return the stress (m, 3) in body axes that a unit of the field adds at points (Pa).
+
+        With the rows (m, n) of the field there.
+        """
+        return -self.stress[elements], self._rows(elements, points)
+
     def forget(self) -> None:
         """Drop what is kept for speed."""
         self._kept.clear()

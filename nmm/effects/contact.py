@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Self
 from nmm.assembly.applied_forces import AppliedForces
 from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
+from nmm.assembly.tractions.held_edges import HeldEdge
 from nmm.contact.model_contact import ModelContact
-from nmm.effects.base import Effect, Setup
+from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.contact_parts import contact_parts, stress_of_ground
 
 if TYPE_CHECKING:
@@ -57,6 +58,20 @@ class Contact(ModelContact, Effect):
         from nmm.contact.points.cracks.on_faces import on_faces
 
         return on_faces(self.model, self.standing)
+
+    def held_edges(self, state: State, end: Instant) -> list[HeldEdge]:
+        """See `Effect.held_edges`: those of intact bonds."""
+        found = self.held(state)
+        return [] if found is None else [found]
+
+    def work(self, before: State, after: State) -> float:
+        """See `Effect.work`: of stresses as they change at intact bonds, on their mean jump (J)."""
+        if not self.bonds.stresses:
+            return 0.0
+        found = (self.held(state) for state in (before, after))
+        edges, stresses = [one for one in found if one is not None], self.bonds.stresses
+        rise = (one.felt(stresses, after.time) - one.felt(stresses, before.time) for one in edges)
+        return -sum(rise) / 2
 
     def receive_stresses(self, stresses: Sequence[StressAt]) -> None:
         """See `Effect.receive_stresses`: the tractions of intact bonds are of the total stress."""

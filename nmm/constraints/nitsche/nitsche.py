@@ -20,8 +20,9 @@ from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.assembly.tractions.donors import Flux, added_traction, in_global_axes
+from nmm.assembly.tractions.held_edges import HeldEdge
 from nmm.constraints.imposition import Imposition, Method
-from nmm.constraints.interface import Interface, Triplets, joined, product
+from nmm.constraints.interface import Interface, Triplets, joined, product, sparse_rows
 from nmm.constraints.nitsche.linear_matter import check_linear
 from nmm.constraints.nitsche.nitsche_terms import against_ground, between_bodies
 from nmm.constraints.nitsche.volume_lift import PressureLift
@@ -101,6 +102,11 @@ class Nitsche(Imposition):
     def added(self, state: State, stresses: Sequence[StressAt], time: float) -> Floats:
         total = added_traction(self.fluxes, state.frames, stresses, time)
         return self.interface.area[:, None] * total
+
+    def held_edge(self, state: State, jump: Floats) -> HeldEdge:
+        rows = sparse_rows(*self.interface.rows(state), len(state.deformation))
+        both = csr_array(rows[0::2]), csr_array(rows[1::2])
+        return HeldEdge(self.fluxes, state.frames, self.interface.area, jump, both)
 
     def energy(self, state: State, jump: Floats) -> float:
         """Minus tractions times jumps, half the penalty's and the ghost's; it may be negative."""

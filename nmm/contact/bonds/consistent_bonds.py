@@ -15,12 +15,13 @@ import numpy as np
 from covers.approximation.rows import row_matrix
 from integration.arrays import Bools, Floats, Ints
 from integration.plane_vectors import clockwise
-from integration.sparse import csr_array
+from integration.sparse import csr_array, diags_array
 from nmm.assembly.model import Model
-from nmm.assembly.state import State
+from nmm.assembly.state import Frames, State
 from nmm.assembly.stress_points import StressAt
 from nmm.assembly.tractions.average import AverageTraction
 from nmm.assembly.tractions.donors import Flux, added_traction, in_global_axes
+from nmm.assembly.tractions.held_edges import HeldEdge
 from nmm.contact.bonds.turning import turning_share
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.points.contact_points import TIED, ContactPoints
@@ -114,6 +115,19 @@ class ConsistentBonds:
     def row(self, joints: ContactPoints) -> Ints:
         """Return the row of joint points, -1 of those without."""
         return self.number[-1 - joints.key]
+
+    def held(
+        self, bonds: ContactPoints, frames: Frames, gaps: csr_array, slips: csr_array
+    ) -> HeldEdge:
+        """Return whole bonds (k,) as points of an edge, with rows (k, n) of gaps and slips."""
+        row, across = self.row(bonds), bonds.normal
+        along = clockwise(across)
+        jump = bonds.gap[:, None] * across + bonds.slip[:, None] * along
+        x, y = (
+            csr_array(diags_array(across[:, i]) @ gaps + diags_array(along[:, i]) @ slips)
+            for i in (0, 1)
+        )
+        return HeldEdge(self.fluxes, frames, self.area[row], jump, (x, y), row)
 
     def averages(
         self, contacts: ContactPoints, state: State, stresses: Sequence[StressAt], time: float

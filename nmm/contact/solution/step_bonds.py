@@ -4,10 +4,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from integration.arrays import Bools, Floats
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
+from nmm.assembly.tractions.held_edges import HeldEdge
 from nmm.contact.bonds.consistent_bonds import ConsistentBonds
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.failing_bonds import overload
@@ -61,6 +64,14 @@ class StepBonds:
         from nmm.contact.bonds.tied_step import TiedBonds
 
         return TiedBonds.of(self.terms, contacts, state, rows, weight, self.stresses, time)
+
+    def held(self, joints: ContactPoints, state: State, rows: "ContactRows") -> HeldEdge | None:
+        """Return the whole bonds among joints and ``rows`` as an edge; None without any."""
+        index = np.flatnonzero(joints.tied)
+        if self.terms is None or not len(index):
+            return None
+        some, own = joints.take(index), (rows.normal[index], rows.tangent[index])
+        return self.terms.held(some, state.frames, *own)
 
     def mixed(
         self, contacts: ContactPoints, state: State, time: float | None = None

@@ -1,12 +1,20 @@
 """Hooks by which effects give stresses, pressures and forces to one another."""
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.applied_forces import AppliedForces, AppliedForcesIn
 from nmm.assembly.state import State
 from nmm.assembly.stress_points import PressureAt, StressAt
 from nmm.effects.given.steps import Instant
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from nmm.assembly.tractions.held_edges import HeldEdge
+
+    HeldEdgesAt = Callable[[State, Instant], list[HeldEdge]]
 
 
 class ExchangeHooks:
@@ -26,6 +34,17 @@ class ExchangeHooks:
 
     def received_stress_energy(self, state: State) -> float:
         """The part (J) of its energy that belongs to the received stresses."""
+        raise NotImplementedError
+
+    def held_edges(self, state: State, end: Instant) -> "list[HeldEdge]":
+        """Return the edges whose jumps the tractions of received stresses work on.
+
+        With the ground where it is at the instant ``end``.
+        """
+        raise NotImplementedError
+
+    def receive_held_edges(self, edges: "Sequence[HeldEdgesAt]") -> None:
+        """Receive the `held_edges` of the other effects, whose jumps are strain of the material."""
         raise NotImplementedError
 
     def swelling(self, state: State, end: Instant) -> Floats | None:

@@ -65,6 +65,8 @@ class Plan(NamedEffects):
         if self.stresses:
             for effect in self.having("receive_stresses"):
                 effect.receive_stresses(self.stresses)
+        for effect in self.having("receive_held_edges"):
+            effect.receive_held_edges([other.held_edges for other in self.having("held_edges")])
         return self
 
     @property
