@@ -47,7 +47,7 @@ class Cutting:
     resolution : Resolution
     moved : float
         greatest distance by which cracks are moved, m.
-    tolerance, smallest : float
+    tolerance, smallest, rounding : float
         see `cut`.
     layers : tuple of CutLines
     cells : CutCells
@@ -61,6 +61,7 @@ class Cutting:
     moved: float
     tolerance: float
     smallest: float
+    rounding: float
     layers: tuple[CutLines, ...]
     cells: CutCells
 
@@ -73,6 +74,7 @@ def cut(
     glue: npt.ArrayLike | None = None,
     tolerance: float = 1e-8,
     smallest: float = 1e-15,
+    rounding: float = 0.0,
 ) -> CutCells:
     """Cut a mathematical cover by regions of material and by cracks.
 
@@ -94,6 +96,9 @@ def cut(
         line end on it. Boundaries of regions are never moved.
     smallest : float
         faces of less than this part of their cell are left out and reported.
+    rounding : float
+        unit in the last place of the coordinates where they were given, if they were moved from
+        there, m: points nearer than a few of it are one.
 
     Returns
     -------
@@ -105,7 +110,8 @@ def cut(
         Invalid regions or cracks, a cover that does not reach around a region, or cells that are
         too small to be told from rounding.
     """
-    return cutting(cover, regions, cracks, glue=glue, tolerance=tolerance, smallest=smallest).cells
+    given = {"tolerance": tolerance, "smallest": smallest, "rounding": rounding}
+    return cutting(cover, regions, cracks, glue=glue, **given).cells
 
 
 def cutting(
@@ -116,12 +122,13 @@ def cutting(
     glue: npt.ArrayLike | None = None,
     tolerance: float = 1e-8,
     smallest: float = 1e-15,
+    rounding: float = 0.0,
 ) -> Cutting:
     """Cut as `cut` does, and return what another cut may go on from as well."""
     polygons = regions if isinstance(regions, Polygons) else Polygons.from_shapely(regions)
     if not len(polygons):
         raise ValueError("regions: none: at least one expected: give the material to be cut")
-    resolution = resolution_of(_extremes(cover, polygons))
+    resolution = resolution_of(_extremes(cover, polygons), rounding)
     size = diameters(cover.cells)
     if size.min() < COARSE * resolution.step:
         raise ValueError(
@@ -149,7 +156,7 @@ def cutting(
         for lines in layers
     ]
     found = assembled(cover, domain, parts, resolution, moved)
-    given = tolerance, smallest
+    given = tolerance, smallest, rounding
     return Cutting(cover, polygons, domain.group, resolution, moved, *given, layers, found)
 
 

@@ -17,6 +17,9 @@ from integration.arrays import Floats, Ints
 STEPS = 46
 # A step is at least so many units in the last place of the coordinates.
 ULPS = 32
+# ... and as many times the rounding of coordinates that came from elsewhere: what lies on a line
+# there, to the last place or two, is on it.
+GIVEN = 8
 
 
 @dataclass(frozen=True)
@@ -43,16 +46,17 @@ class Resolution:
         return np.asarray(self.centre + steps * self.step)
 
 
-def resolution_of(points: Floats) -> Resolution:
+def resolution_of(points: Floats, rounding: float = 0.0) -> Resolution:
     """Return the resolution of a model with the given extreme points.
 
     The step is 2^-46 of the extent of the model, rounded up to a power of two (1.4e-14 to 2.8e-14),
     and at least 32 units in the last place of the largest coordinate, as far from the origin
-    coordinates are no more accurate.
+    coordinates are no more accurate. Of coordinates that were moved here from far away ``rounding``
+    (m) is the unit in their last place there, and the step at least eight of it.
     """
     low, high = points.min(axis=0), points.max(axis=0)
     extent = float((high - low).max())
-    noise = ULPS * float(np.spacing(np.abs(points).max()))
+    noise = max(ULPS * float(np.spacing(np.abs(points).max())), GIVEN * rounding)
     step = 2.0 ** np.ceil(np.log2(max(np.ldexp(extent, -STEPS), noise)))
     return Resolution((low + high) / 2, float(step))
 

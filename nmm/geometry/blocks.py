@@ -33,6 +33,8 @@ class Regions:
         Numbers among the blocks of the scene, of which these are some; None when they are all.
     bounds : (2, 2)
         Lower and upper corner of all blocks of the scene, m; None when they are all.
+    rounding
+        Unit in the last place of coordinates where the scene gives them, if that is not here, m.
     """
 
     polygons: Polygons
@@ -43,6 +45,7 @@ class Regions:
     crack_region: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     number: Ints | None = None
     bounds: Floats | None = None
+    rounding: float = 0.0
 
     def __len__(self) -> int:
         return len(self.polygons)
@@ -71,6 +74,7 @@ class Regions:
             place[self.crack_region[cracked]],
             self.numbers[index],
             self.box,
+            self.rounding,
         )
 
     def divided(self, polygons: Polygons, parent: Ints) -> Regions:
@@ -88,6 +92,7 @@ class Regions:
             first,
             self.numbers[parent],
             self.box,
+            self.rounding,
         )
 
     @property
@@ -106,6 +111,7 @@ class Regions:
             np.concatenate([self.crack_region, others.crack_region + len(self)]),
             np.concatenate([self.numbers, others.numbers]),
             self.box,
+            self.rounding,
         )
 
     def select(self, block: str | None) -> Ints:

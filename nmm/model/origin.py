@@ -46,10 +46,13 @@ def own_origin(points: Floats) -> Floats:
 
 
 def shifted_regions(regions: Regions, by: Floats) -> Regions:
-    """Return blocks and cracks moved by ``by`` (2,)."""
+    """Return blocks and cracks moved by ``by`` (2,), which know how they were rounded there."""
     polygons = regions.polygons
     return replace(
-        regions, polygons=polygons.with_points(polygons.points + by), cracks=regions.cracks + by
+        regions,
+        polygons=polygons.with_points(polygons.points + by),
+        cracks=regions.cracks + by,
+        rounding=float(np.spacing(np.abs(polygons.points).max())),
     )
 
 

@@ -151,3 +151,53 @@ def test_a_cracked_plate_far_away_moves_as_at_home(name: str, place: tuple[float
 
     # Coordinates are binary fractions, so that the shift rounds nothing.
     np.testing.assert_allclose(corner_moves(place), corner_moves((0.0, 0.0)), rtol=1e-9)
+
+
+BESIDE = """
+plane = "strain"
+[materials.m]
+young_modulus = 1e9
+poisson_ratio = 0.2
+[interfaces.i]
+friction_angle = "20 deg"
+[[blocks]]
+name = "load"
+material = "m"
+vertices = {load}
+[[blocks]]
+name = "wall"
+material = "m"
+vertices = {wall}
+[[supports]]
+name = "hold"
+block = "wall"
+fix = ["x", "y"]
+[[supports]]
+name = "held"
+block = "load"
+fix = ["x", "y"]
+[contact]
+"""
+
+
+@pytest.mark.parametrize("cover", ["quads", "triangles"])
+@pytest.mark.parametrize("angle", [0.3, 0.7])
+def test_corners_on_a_face_far_away_cut_no_edges_of_the_size_of_rounding(
+    cover: str, angle: float
+) -> None:
+    turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+
+    def placed(points: Any) -> Any:
+        return (np.array(points) @ turn + (1e4, -3e3)).tolist()
+
+    # Coordinates of 1e4 m are rounded to 2e-12 m, so that the wall's corners miss the face by that.
+    load = placed([[0, 0.6], [1, 0.3874], [1, 1.7], [0, 1.7]])
+    wall = placed([[1, 0.9], [1.5, 0.9], [1.5, 1.6], [1, 1.6]])
+    method = parse_formulation(f'[cover]\ntype = "{cover}"\nsize = 0.8\ndegree = 1\n')
+    elements = run(parse_scene(BESIDE.format(load=load, wall=wall), "s"), method).topologies[0]
+    edges = [
+        np.hypot(*(np.roll(ring, -1, axis=0) - ring).T)
+        for ring in np.split(elements.elements.points, elements.elements.ring_offsets[1:-1])
+    ]
+    # The shortest true edge is where cells of 0.8 m meet corners: millimetres.
+    assert np.concatenate(edges).min() > 1e-6

@@ -48,6 +48,7 @@ def cut_again(before: Cutting, cracks: Sequence[npt.ArrayLike]) -> Cutting:
             glue=before.group,
             tolerance=before.tolerance,
             smallest=before.smallest,
+            rounding=before.rounding,
         )
     return replace(before, layers=(window.lines,), cells=found)
 

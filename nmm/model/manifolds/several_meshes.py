@@ -62,7 +62,7 @@ def laid_and_cut(
                 "their own: use one of these, or remove [[cover.nets]]"
             )
         nets.append(laid)
-        cuts.append(cut(laid, blocks, lines))
+        cuts.append(cut(laid, blocks, lines, rounding=regions.rounding))
     whole = joined_cut(nets, cuts, [own for _, own in parts])
     return LaidAndCut(joined_cover(nets), whole)
 
@@ -74,12 +74,12 @@ def _one_net(
         found = cut_again(before, lines)
         return LaidAndCut(found.cover, found.cells, found)
     whole = _laid(cover, None, regions.box)
-    found = cutting(whole, regions.polygons, lines)
+    found = cutting(whole, regions.polygons, lines, rounding=regions.rounding)
     if not whole.settles:
         return LaidAndCut(whole, found.cells, found)
 
     def again(other: MathematicalCover) -> CutCells:
-        return cut(other, regions.polygons, lines)
+        return cut(other, regions.polygons, lines, rounding=regions.rounding)
 
     return LaidAndCut(*whole.settled(found.cells, again))
 
