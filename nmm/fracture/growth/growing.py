@@ -16,6 +16,7 @@ from nmm.assembly.stress_points import PressureAt, StressAt
 from nmm.effects.base import Effect, Setup
 from nmm.effects.event import Event
 from nmm.fracture.growth.advance import extended_lines
+from nmm.fracture.growth.blocks_met import blocks_met
 from nmm.fracture.growth.crack_nucleation import CrackNucleation
 from nmm.fracture.growth.faces import CrackFaces
 from nmm.fracture.growth.fronts import CrackFronts, nucleus_name
@@ -193,8 +194,15 @@ class GrowingCracks(Effect):
         cut, cracks = self._setup.model.cut, self._setup.geometry.cracks
         fronts = found.front, found.tip, found.kink.angle
         lines = extended_lines(cut, cracks, self._fronts, *fronts, self.rule.increment)
-        names = ", ".join(self._fronts.name[one] for one in found.front)
-        return lines, f"cracks grew at {names}"
+        names = [self._fronts.name[one] for one in found.front]
+        ends = self._fronts.points(lines)[found.front]
+        met = blocks_met(self._setup, found.tip, ends, self.rule.increment)
+        stopped = [
+            f"{name} ends where its block meets {block}"
+            for name, block in zip(names, met, strict=True)
+            if block
+        ]
+        return lines, "; ".join([f"cracks grew at {', '.join(names)}", *stopped])
 
     @abstractmethod
     def follow(self, change: "Change") -> "GrowingCracks":
