@@ -71,3 +71,13 @@ def test_ensemble_has_the_stated_means_scatter_crack_and_independence(beams: Mod
     assert np.ptp(penalty) / np.mean(penalty) < 0.03
     increment = list(found["increment"].values())
     assert np.ptp(increment) / np.mean(increment) < 0.02
+
+
+@pytest.mark.slow
+def test_a_softening_beam_reaches_its_peak_between_two_steps(
+    script: Callable[[Path], ModuleType],
+) -> None:
+    """Steps that dissipate a 25600th of the energy carry 30.243 kN, those of a hundredth 30.173."""
+    cases = script(SCRIPT.parents[1] / "seed_cases" / "cases.py")
+    run = nmm.run(nmm.parse_scene(cases.beam(200.0, energy=100.0)))
+    assert run.summary.failure_factor == pytest.approx(30.243, rel=2e-4)

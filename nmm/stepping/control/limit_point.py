@@ -1,6 +1,7 @@
 """Whether a path falls beyond the last load that was solved: a limit point, seen by following."""
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,12 +11,16 @@ from nmm.controls.base import Control
 from nmm.controls.dissipation import Dissipation
 from nmm.controls.events import NextEvent
 from nmm.results.tee import Tee
+from nmm.stepping.control.about_peak import AboutPeak, refined
 from nmm.stepping.control.following import run_path
 from nmm.stepping.control.position import OnPath, PathEnd
-from nmm.stepping.drive.verdict import FAILURE, LimitPoint
+from nmm.stepping.drive.verdict import FAILURE, LimitPoint, RunVerdict
 from nmm.stepping.reports.energies import stored
 from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.stepper import Stepper
+
+if TYPE_CHECKING:
+    from nmm.contact.solution.record import ContactRecord
 
 # Share of the largest load to which a path must fall, and of the stored energy that a step of it
 # dissipates where bonds soften.
@@ -57,16 +62,32 @@ def limit_point(stepper: Stepper, state: State, factor: float) -> LimitPoint | N
     end, quiet = PathEnd(factor, PEAK_PASSED), Recorder(stepper, Tee([]), [])
     at = replace(OnPath.at_start(state, control.increment), way=_way(stepper, state))
     passed: list[tuple[float, int]] = []  # highest load factor and unstable ways of each place
+    about = AboutPeak(at, record)
 
     def keep(at: OnPath) -> OnPath:
         passed.append((at.peak, quiet.totals.ways))
+        about.see(at, stepper.remember())
         return at
 
-    last, verdict = run_path(stepper, quiet, at, control, end, lambda share, said: None, keep)
+    def follow(
+        at: OnPath, record: "ContactRecord | None", control: Control, about: AboutPeak
+    ) -> RunVerdict:
+        def keep(at: OnPath) -> OnPath:
+            about.see(at, stepper.remember())
+            return at
+
+        stepper.restore(record)
+        recorder = Recorder(stepper, Tee([]), [])
+        return run_path(stepper, recorder, at, control, end, _untold, keep)[1]
+
+    last, verdict = run_path(stepper, quiet, at, control, end, _untold, keep)
+    peak = verdict.load_factor
+    shown = verdict.code == FAILURE and peak is not None and last.load_factor < peak
+    if shown and soft and peak == about.most:
+        peak = refined(about, control, follow)
     stepper.restore(record)
     stepper.budget.taken = taken
-    peak = verdict.load_factor
-    if verdict.code != FAILURE or peak is None or last.load_factor >= peak:
+    if not shown or peak is None:
         return None
     kind = "dissipation" if soft else "events"
     sentence = (
@@ -81,6 +102,10 @@ def limit_point(stepper: Stepper, state: State, factor: float) -> LimitPoint | N
             "grows may fail there already; lower [loading] increment and compare"
         )
     return LimitPoint(peak, sentence)
+
+
+def _untold(share: float, said: str) -> None:
+    pass
 
 
 def _way(stepper: Stepper, state: State) -> Floats:
