@@ -19,9 +19,10 @@ from nmm.contact.points.contact_points import TIED, ContactPoints
 from nmm.contact.problem.step_problem import StepAnswer
 from nmm.interfaces.limits import Limits
 
-# Stiffness of the springs that go on, in penalties of the terms: of broken bonds, which press at
-# most, and most of those that soften. These unload by their strength over it while they open, which
-# is missing in the energy that they take.
+# Stiffness of the springs that go on, in penalties of the terms: of bonds that are broken or shear
+# under pressure, and most of those that soften in tension. These unload by their strength over it
+# while they open, which is missing in the energy that they take. With the second under pressure,
+# too, friction beside them did not come to balance.
 FIRM, RIGID = 100.0, 1e4
 # Stiffness of the softest springs, in those under which force would fall at a standstill. At ``a``
 # times that damage grows by ``a / (a - 1)`` of what opens: at 2 iterations stall.
@@ -117,11 +118,11 @@ def _firm(pull: Floats, gap: Floats, penalty: Floats, least: Floats) -> Floats:
 
     Terms let a bond open a little where stress varies from cell to cell. A spring that is as long
     goes on without a jump of the traction, and what is open counts as opened, as far as that
-    leaves it as firm as its law asks for.
+    leaves it as firm as its law asks for. What is pressed is as firm as a broken bond.
     """
     is_open = (pull > 0) & (gap > 0)
     found = pull / np.where(is_open, penalty * gap, 1.0)
-    found = np.where(is_open, np.clip(found, 1.0, RIGID), RIGID)
+    found = np.where(is_open, np.clip(found, 1.0, RIGID), np.where(pull < 0, FIRM, RIGID))
     return np.asarray(np.maximum(found, ABOVE_LEAST * least / penalty))
 
 

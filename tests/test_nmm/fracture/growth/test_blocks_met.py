@@ -57,7 +57,7 @@ BOND = "bonded = true\ncohesion = {0}\ntensile_strength = {0}\n"
 WAYS = {
     "glued": BOND.format(1e9),
     "touching": "[contact]\n",
-    "weakly bonded": BOND.format(1e5) + "[contact]\n",
+    "bonded": BOND.format(2e7) + "[contact]\n",
 }
 
 

@@ -27,6 +27,6 @@ def test_path_and_load_converge_as_cells_and_pieces_are_halved_together() -> Non
     first, then = np.abs(np.diff(ends, axis=0))
     # Order of at least a half: what is left halves in two halvings.
     assert (then < first / np.sqrt(2)).all()
-    # If it stays so, what is left is 2.4 times the last change: 1.3 mm of 90 and 1.5e-3 of a load.
+    # If it stays so, what is left is 2.4 times the last change: 1.2 mm of 89 and 1.5e-3 of a load.
     assert then[1] < 1e-3
     assert then[2] < 1e-3 * ends[-1, 2]
