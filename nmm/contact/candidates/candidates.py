@@ -79,7 +79,10 @@ class Candidates:
         in statics friction that they had would choose another of its many states.
         """
         joints = self.joints(record.book, state)
-        crossed = crossed if step is None else joined(record.crossed, crossed)
+        if step is None:
+            crossed = joined(self.partners.standing_in_kinks(state, reach, record.book), crossed)
+        else:
+            crossed = joined(record.crossed, crossed)
         known = record.known
         # Springs that a stress had closed push while their sides stand apart by the reference.
         apart = 0.0 if known is None else float(largest(known.reference, initial=0.0))

@@ -149,8 +149,12 @@ def over_seams(found: Crossings, motion: Motion, pairs: tuple[Ints, Ints]) -> Bo
 
 
 def _apart(motion: Motion, found: Crossings, corner: Ints) -> Floats:
-    """Distances (m,) of the crossing vertices from other ones when they cross (m)."""
-    time = found.fraction[:, None]
+    """Distances (m,) of the crossing vertices from other ones when they come in (m).
+
+    Those that began inside, as a corner that stands on the end of its floor, did so before.
+    """
+    began = _height(motion.before, found.vertex, found.edge) <= 0.0
+    time = np.where(began, 0.0, found.fraction)[:, None]
     offset = (1 - time) * (motion.before.start[found.vertex] - motion.before.start[corner])
     offset += time * (motion.after.start[found.vertex] - motion.after.start[corner])
     return np.asarray(np.hypot(*offset.T))

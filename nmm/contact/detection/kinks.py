@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from integration.arrays import Ints
+from integration.arrays import Bools, Floats, Ints
 from integration.plane_vectors import cross, dot
 from nmm.contact.detection.measures import SINE
 from nmm.contact.detection.surface import Surface
+from nmm.contact.detection.tolerances import ANGLE, FLUSH
 
 
 def in_kinks(surface: Surface, vertex: Ints, edge: Ints, reach: float) -> tuple[Ints, Ints]:
@@ -22,13 +23,39 @@ def in_kinks(surface: Surface, vertex: Ints, edge: Ints, reach: float) -> tuple[
     reach
         Largest distance of the vertex from the ends of both edges (m).
     """
-    before = surface.previous[vertex]
-    own, back = surface.direction[vertex], -surface.direction[before]
+    ending, beginning = _bounding(surface, vertex, edge, np.full(len(vertex), reach))
+    found = np.unique(np.concatenate([ending, beginning]))
+    return vertex[found], edge[found]
+
+
+def standing(surface: Surface, vertex: Ints, edge: Ints) -> tuple[Ints, Ints]:
+    """Return pairs in kinks within `FLUSH` whose edge the corner meets with none of its sides.
+
+    Cells that fit meet by their sides, which are contacts; what stands beside a flush block meets
+    the edge below that block at its corner alone.
+
+    Parameters
+    ----------
+    vertex, edge
+        (m,) pairs of different bodies that are near each other.
+    """
+    flush = FLUSH * np.minimum(surface.thickness[vertex], surface.thickness[edge])
+    ending, beginning = _bounding(surface, vertex, edge, flush)
+    ending = ending[~_sided(surface, vertex[ending], -surface.direction[edge[ending]])]
+    beginning = beginning[~_sided(surface, vertex[beginning], surface.direction[edge[beginning]])]
+    found = np.unique(np.concatenate([ending, beginning]))
+    return vertex[found], edge[found]
+
+
+def _bounding(surface: Surface, vertex: Ints, edge: Ints, reach: Floats) -> tuple[Ints, Ints]:
+    """Return rows (k,) of pairs whose edge ends and begins in a kink that the corner fits into."""
+    own, back = surface.direction[vertex], -surface.direction[surface.previous[vertex]]
     out = np.minimum(dot(own, surface.normal[edge]), dot(back, surface.normal[edge])) >= -SINE
     out &= cross(own, back) > 0.0
-    vertex, edge = vertex[out], edge[out]
-    apart = (surface.start[vertex] - end[edge] for end in (surface.end, surface.start))
-    ending, beginning = (np.flatnonzero(np.hypot(*way.T) <= reach) for way in apart)
+    apart = (
+        np.hypot(*(surface.start[vertex] - end[edge]).T) for end in (surface.end, surface.start)
+    )
+    ending, beginning = (np.flatnonzero(out & (way <= reach)) for way in apart)
     # Every two at one vertex, in order of vertices: runs of `beginning` beside each of `ending`.
     low, high = (
         np.searchsorted(vertex[beginning], vertex[ending], side) for side in ("left", "right")
@@ -39,5 +66,11 @@ def in_kinks(surface: Surface, vertex: Ints, edge: Ints, reach: float) -> tuple[
     one, other = edge[first], edge[second]
     kink = cross(surface.direction[one], surface.direction[other]) < -SINE
     kink &= surface.body[one] != surface.body[other]
-    found = np.unique(np.concatenate([first[kink], second[kink]]))
-    return vertex[found], edge[found]
+    return first[kink], second[kink]
+
+
+def _sided(surface: Surface, vertex: Ints, along: Floats) -> Bools:
+    """Return which vertices (k,) have a side along the directions (k, 2)."""
+    sides = surface.direction[vertex], -surface.direction[surface.previous[vertex]]
+    one, other = (np.hypot(*(side - along).T) <= ANGLE for side in sides)
+    return np.asarray(one | other)

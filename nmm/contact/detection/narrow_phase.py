@@ -83,8 +83,9 @@ def find_contacts(
 
 def with_pairs(surface: Surface, found: Contacts, vertex: Ints, edge: Ints) -> Contacts:
     """Return contacts with other pairs of a vertex and an edge beside them, in order of keys."""
-    new = ~np.isin(pair_key(surface, vertex, edge), found.key)
-    if not new.any():
+    key, first = np.unique(pair_key(surface, vertex, edge), return_index=True)
+    new = first[~np.isin(key, found.key)]
+    if not len(new):
         return found
     v, e = vertex[new], edge[new]
     along, gap = measure(surface, v, e)

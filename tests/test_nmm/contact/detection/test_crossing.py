@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from integration.polygons import Polygons
+from nmm.contact.detection.crossing import crossings_in, motion_of, over_seams
 from nmm.contact.detection.surface import Surface
+from nmm.contact.detection.tolerances import FLUSH
 from nmm.testing.detection.crossings import find_crossings
-from nmm.testing.detection.search import polygon_surface
+from nmm.testing.detection.search import near_pairs, polygon_surface
 
 
 def rectangle(x: float, y: float, width: float, height: float) -> np.ndarray:
@@ -123,3 +125,24 @@ def test_result_does_not_depend_on_where_the_scene_is():
     np.testing.assert_array_equal(here.edge, there.edge)
     # 1e6 m carries 1.2e-10 m of a way of 4 m.
     np.testing.assert_allclose(here.fraction, there.fraction, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("way", [0.002, 0.7, 7.0])
+@pytest.mark.parametrize("before", [0.0, 1e-6])
+def test_a_corner_above_the_end_of_its_floor_slides_on_over_it_however_far(way, before):
+    """Pressed in by a micrometre it comes in through the side of the floor, hidden by another body.
+
+    The floor bears it: the side is no contact, though the corner is a millimetre from the end as
+    it comes too deep, where steps no longer count as flush.
+    """
+    sunk = 1e-6
+    floor, lower, block = rectangle(0, -2, 20, 2), rectangle(-4, -2, 4, 2), [before, -sunk]
+    start = scene(floor, lower, rectangle(0, 0, 2, 2) + block)
+    motion = motion_of(start, shifted(start, 2, (way, 0.0)), near_pairs(start, 8.0), FLUSH)
+    found = crossings_in(motion, FLUSH)
+    corner = (start.body[found.vertex] == 2) & (start.normal[found.edge][:, 0] == -1.0)
+    assert corner.any()
+    on_floor = np.isclose(start.normal[:, 1], 1.0) & (start.body == 0)
+    at = found.vertex[corner]
+    pairs = at, np.repeat(np.flatnonzero(on_floor), len(at))
+    assert over_seams(found, motion, pairs)[corner].all()

@@ -148,6 +148,18 @@ def test_a_toe_on_the_flat_beside_a_flush_block_is_at_rest_at_once(cover):
     assert (found.status, found.sentence) == ("converged", "equilibrium at load factor 1")
 
 
+# Of two bodies the slope and the flat are held as well, but their seam ends where the toe stands.
+@pytest.mark.parametrize("mirrored", [False, True])
+@pytest.mark.parametrize(
+    ("friction", "status"), [(0.082, "collapsed"), (0.085, "converged"), (0.3, "converged")]
+)
+def test_a_toe_in_a_kink_of_two_bodies_stands_as_soon_as_friction_may_hold_the_block(
+    friction, status, mirrored
+):
+    scene = nmm.parse_scene(toe(friction, OUTLINES | SIDE_BY_SIDE, mirrored))
+    assert nmm.run(scene).summary.status == status
+
+
 def test_a_run_until_failure_tells_its_bound_beside_what_it_found():
     text = BLOCKS % 45 + PUSH % (2.0, WEIGHT)
     text += '[loading]\nscaled = ["push"]\nuntil = "failure"\n'
