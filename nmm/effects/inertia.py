@@ -39,7 +39,7 @@ class Inertia(Effect):
         self._model = model
         self._axes_turn = axes_turn
         if model.lumped:  # refused here where it is not positive
-            assert self.mass is not None
+            _ = self.mass
         self._spins = KeptOfStates(self._spin)
         self._outwards = KeptOfStates(self._centrifugal)
         self._forces = KeptOfStates(self._force)

@@ -42,7 +42,7 @@ class Consolidation(PoreWater):
     _step = 0.0
     _stiff: tuple[Hashable, csc_array] | None = None
     _edges: "Sequence[HeldEdgesAt]" = ()
-    _from: State | None = None
+    _from: State | None = None  # where the step begins; corrections of it go on elsewhere
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -87,7 +87,7 @@ class Consolidation(PoreWater):
     def accepted(self, state: State) -> None:
         """See `Effect.accepted`: solve for the head with the strain of the accepted state."""
         if self._from is not None:
-            self.join(self._from)  # without the edges of bonds that have broken since
+            self.join(self._from)
         self.course.make_room(state.time * self._second, self._room(state, Instant.of(state)))
 
     def forget(self) -> None:
@@ -126,8 +126,9 @@ class Consolidation(PoreWater):
         """Return the field at the start of the step to ``end``."""
         if end.time > state.time:
             self.course.begin(state.time * self._second)
-            self.join(state)
-            self._from = state
+            if self._from is None or self._from.time != state.time:
+                self._from = state
+            self.join(self._from)  # without the edges of bonds that have broken since
         began = self.course.began
         assert began is not None
         return began
