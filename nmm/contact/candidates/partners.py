@@ -141,8 +141,11 @@ class Partners:
     def standing_in_kinks(
         self, state: State, reach: float, book: JointBook
     ) -> tuple[Ints, Ints] | None:
-        """Return pairs that `nmm.contact.detection.kinks.standing` finds; None over faces."""
-        if self._face_points:
+        """Return pairs that `nmm.contact.detection.kinks.standing` finds.
+
+        None over faces, and between glued pieces, whose corners their neighbours hold.
+        """
+        if self._face_points or self._pairs.glued:
             return None
         surface = self.surface(state)
         return self._meeting(surface, standing(surface, *self._near(surface, reach)), book)
