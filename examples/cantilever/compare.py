@@ -11,6 +11,7 @@ from nmm.assembly.places import on_segment
 from nmm.constraints.imposition import Method
 from nmm.formulation import CoverTable, read_formulation
 from nmm.geometry import regions
+from nmm.geometry.tessellation.cover_types import highest_degree
 from nmm.model.build import material_law
 from nmm.model.from_polygons import solid
 from nmm.scene import read_scene
@@ -53,7 +54,7 @@ def solve(cover: CoverTable) -> Answer:
     law = material_law(scene.materials["steel"])
     model = solid(regions(scene).polygons, cover, [law], scene.plane)
     assert cover.size is not None
-    degree = cover.highest_degree
+    degree = highest_degree(cover)
     order = 2 * degree + 6
     root = on_segment(model.manifold, np.array([[0.0, -6.0], [0.0, 6.0]]), order=order)
     end = on_segment(model.manifold, np.array([[48.0, -6.0], [48.0, 6.0]]), order=order)
