@@ -7,6 +7,7 @@ from integration.polygons import Polygons
 from nmm.assembly.model import Model
 from nmm.errors import FormulationError
 from nmm.formulation import CoverTable, EnrichmentTable, parse_formulation
+from nmm.geometry.tessellation.cover_types import named_functions
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
 from nmm.scene import parse_scene
@@ -38,7 +39,7 @@ CONSTANT = [
 
 
 def named(cover: CoverTable) -> str:
-    return f"{cover.type}{cover.functions[0]}{cover.degree}"
+    return f"{cover.type}{named_functions(cover)[0]}{cover.degree}"
 
 
 @pytest.mark.parametrize("cover", [*COVERS, *CONSTANT], ids=named)
