@@ -11,6 +11,12 @@ PULLED = "\n" + text.pulled_edge("up", [[0, 0.5], [1, 0.5]], [0, 1.0])
 PULLED_APART = "\n" + text.pulled_edge("up", [(0, 1), (2, 1)], (0, 1e6))
 PULLED_APART += text.pulled_edge("down", [(0, -1), (2, -1)], (0, -1e6))
 
+# Two halves of that body side by side, of materials of their own.
+HALVES_APART = "".join(
+    text.material(side, 1e9, 0.3, None) + text.box(side, (x, -1), (1, 2), side)
+    for side, x in (("left", 0), ("right", 1))
+)
+
 
 def cracked_plate(crack: Sequence[Sequence[float]], pull: float = 1.0, more: str = "") -> str:
     """Return a plate of 1 m by 2 m about the level of the origin, held below and pulled above.

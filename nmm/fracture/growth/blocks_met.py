@@ -3,8 +3,9 @@
 from typing import TYPE_CHECKING
 
 import numpy as np
+import shapely
 
-from integration.arrays import Bools, Floats, Ints
+from integration.arrays import Floats, Ints
 
 if TYPE_CHECKING:
     from nmm.effects.base import Setup
@@ -27,16 +28,10 @@ def blocks_met(setup: "Setup", tips: Ints, ends: Floats, length: float) -> tuple
     """
     cut, region = setup.model.cut, setup.model.manifold.element_region
     edges, mine = cut.boundary, region[cut.tips.element[tips]]
+    lines = shapely.linestrings(np.stack([edges.start, edges.end], axis=1))
     said = []
     for end, own in zip(ends, mine, strict=True):  # a handful of fronts
-        there = _on(end, edges.start, edges.end, ON_EDGE * length)
+        there = shapely.dwithin(shapely.points(end), lines, ON_EDGE * length)
         others = np.unique(region[edges.element[there]])
         said.append(" and ".join(setup.region_name[one] for one in others if one != own))
     return tuple(said)
-
-
-def _on(point: Floats, start: Floats, end: Floats, within: float) -> Bools:
-    """Which segments (m,) from ``start`` to ``end`` (m, 2) come as near to a point (2,)."""
-    way, to = end - start, point - start
-    share = np.clip((to * way).sum(axis=1) / (way**2).sum(axis=1), 0.0, 1.0)
-    return np.asarray(np.hypot(*(to - share[:, None] * way).T) <= within)

@@ -6,17 +6,15 @@ import pytest
 import nmm
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
-from nmm.testing.cracked_plates import turned_net
+from nmm.testing.cracked_plates import HALVES_APART, turned_net
 
 # The left square is torn by what holds it above and below; the right one stands beside it.
 HALVES = """
 plane = "strain"
-[materials.left]
-young_modulus = 1e9
-poisson_ratio = 0.3
-[materials.right]
-young_modulus = 1e9
-poisson_ratio = 0.3
+"""
+HALVES += (
+    HALVES_APART
+    + """
 [interfaces.faces]
 between = ["left", "left"]
 friction_angle = 0.5
@@ -24,14 +22,6 @@ friction_angle = 0.5
 between = ["left", "right"]
 friction_angle = 0.5
 HELD
-[[blocks]]
-name = "left"
-material = "left"
-vertices = [[0, -1], [1, -1], [1, 1], [0, 1]]
-[[blocks]]
-name = "right"
-material = "right"
-vertices = [[1, -1], [2, -1], [2, 1], [1, 1]]
 [[cracks]]
 name = "notch"
 points = [[0, 0], [0.73, 0]]
@@ -53,6 +43,7 @@ criterion = "straight_ahead"
 toughness = 1e6
 increment = 0.1
 """
+)
 BOND = "bonded = true\ncohesion = {0}\ntensile_strength = {0}\n"
 WAYS = {
     "glued": BOND.format(1e9),

@@ -5,32 +5,22 @@ import pytest
 import nmm
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
-from nmm.testing.cracked_plates import PULLED_APART, turned_net
+from nmm.testing.cracked_plates import HALVES_APART, PULLED_APART, turned_net
 
 # Two squares, one glued on the other, pulled upwards; the crack runs towards the seam.
 HALVES = """
 title = "glued halves"
 plane = "strain"
-[materials.left]
-young_modulus = 1e9
-poisson_ratio = 0.3
-[materials.right]
-young_modulus = 1e9
-poisson_ratio = 0.3
+"""
+HALVES += (
+    HALVES_APART
+    + """
 [interfaces.seam]
 between = ["left", "right"]
 bonded = true
 friction_angle = 0.5
 cohesion = 1e9
 tensile_strength = 1e9
-[[blocks]]
-name = "left"
-material = "left"
-vertices = [[0, -1], [1, -1], [1, 1], [0, 1]]
-[[blocks]]
-name = "right"
-material = "right"
-vertices = [[1, -1], [2, -1], [2, 1], [1, 1]]
 [[cracks]]
 name = "notch"
 points = [[0, 0], [0.7, 0]]
@@ -47,6 +37,7 @@ toughness = 1e6
 increment = 0.1
 control = "toughness"
 """
+)
 HALVES += PULLED_APART
 OTHER = """
 [[cracks]]
