@@ -24,7 +24,7 @@ def spectrum(
         import numpy as np
 
         import nmm
-        from nmm.plots.results.spectrum import spectrum as draw
+        from nmm.plots.results.graphs.spectrum import spectrum as draw
         from nmm.results.monitor_spectrum import monitor_spectrum
 
         found = monitor_spectrum(nmm.read_run(run), monitor, axis, ratio=damping)

@@ -85,7 +85,7 @@ def stretched(stiffness: Floats, force: Floats) -> Floats:
 
 def faces_another(setup: Setup, place: Place) -> Bools:
     """Points (m,) on edges that face another body, whose contact or bond has the traction."""
-    from nmm.constraints.shared_edges import bonded_stiffness, shared_edges  # finds contacts
+    from nmm.constraints.ties.shared_edges import bonded_stiffness, shared_edges  # finds contacts
 
     joints = shared_edges(setup.model)
     if setup.scene.contact is None:

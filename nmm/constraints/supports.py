@@ -24,7 +24,7 @@ from nmm.constraints.laid_springs import (
 )
 from nmm.constraints.nitsche.volume_lift import sharing
 from nmm.constraints.points_under_stress import laid_at_points
-from nmm.constraints.tied_interfaces import TiedInterfaces
+from nmm.constraints.ties.tied_interfaces import TiedInterfaces
 from nmm.constraints.turned_axes import turning
 from nmm.effects.acting_place import acting_place
 from nmm.effects.base import Instant, Setup

@@ -12,7 +12,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.diffusion.problem import DiffusionProblem, step_between
-from nmm.solvers.known import LEAST
+from nmm.solvers.accuracy.known import LEAST
 
 # Relative excess over the longest step that is rounding.
 ROUNDING = 1e-9

@@ -19,7 +19,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Floats
-from nmm.effects.load_factor import factor_of
+from nmm.effects.loading.load_factor import factor_of
 
 Factor = Callable[[float], float]
 """From a time (s) to a factor."""

@@ -11,7 +11,7 @@ from covers.scalar.space import ScalarSpace
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.places import Place, on_edges
-from nmm.constraints.shared_edges import gauss_interface, shared_edges
+from nmm.constraints.ties.shared_edges import gauss_interface, shared_edges
 from nmm.diffusion.edges import Edge
 from nmm.diffusion.holding import jump, tied
 

@@ -10,7 +10,7 @@ from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup
-from nmm.effects.dead_loads import DeadLoad
+from nmm.effects.loading.dead_loads import DeadLoad
 
 
 class Gravity(Effect):

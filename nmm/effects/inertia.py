@@ -11,7 +11,7 @@ from integration.sparse import csc_array
 from nmm.assembly.applied_forces import AppliedForces
 from nmm.assembly.kept import KeptOfStates
 from nmm.assembly.model import Model
-from nmm.assembly.spin import SpinOfStep
+from nmm.assembly.moving.spin import SpinOfStep
 from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.solvers.unchecked import product

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from integration.arrays import Floats, Ints
-from nmm.assembly.kinematics import CLASSICAL, COROTATIONAL, FINITE, SMALL, Kinematics
 from nmm.assembly.model import Model
+from nmm.assembly.moving.kinematics import CLASSICAL, COROTATIONAL, FINITE, SMALL, Kinematics
 from nmm.assembly.state import initial_state
 from nmm.effects.base import Setup
 from nmm.errors import Fault, FormulationError, SceneError

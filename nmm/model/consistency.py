@@ -11,7 +11,7 @@ from nmm.results.summary import Summary
 from nmm.scene.faults import suggestion
 
 if TYPE_CHECKING:
-    from nmm.assembly.kinematics import Kinematics
+    from nmm.assembly.moving.kinematics import Kinematics
     from nmm.formulation import Formulation
     from nmm.scene.model import Scene
 

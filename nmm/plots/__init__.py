@@ -9,9 +9,9 @@ from nmm.plots.results.blocks import blocks
 from nmm.plots.results.contact_forces import contact_forces
 from nmm.plots.results.covers import covers
 from nmm.plots.results.crack_paths import crack_paths
-from nmm.plots.results.curves import curve, load_displacement
 from nmm.plots.results.deformed import deformed, failure_mode
-from nmm.plots.results.history import history, overview
+from nmm.plots.results.graphs.curves import curve, load_displacement
+from nmm.plots.results.graphs.history import history, overview
 from nmm.plots.results.members import members
 from nmm.plots.results.stress import stress
 

@@ -13,9 +13,9 @@ from nmm.errors import DamageError, FormulationError, SceneError
 from nmm.plots.results.contact_forces import contact_forces
 from nmm.plots.results.covers import covers
 from nmm.plots.results.crack_paths import crack_paths, grown_paths
-from nmm.plots.results.curves import load_displacement
 from nmm.plots.results.deformed import deformed, failure_mode
-from nmm.plots.results.history import overview
+from nmm.plots.results.graphs.curves import load_displacement
+from nmm.plots.results.graphs.history import overview
 from nmm.plots.results.members import members
 from nmm.plots.results.stress import NAMES, stress
 from nmm.quantity import APART

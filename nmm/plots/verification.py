@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from nmm.plots.canvas import SMALL, PathLike, axes_grid, frame
-from nmm.plots.results.columns import CYCLE
+from nmm.plots.results.graphs.columns import CYCLE
 from nmm.plots.small import save_small
 
 if TYPE_CHECKING:

@@ -12,9 +12,9 @@ import numpy as np
 from integration.arrays import Floats
 from integration.sparse import csc_array
 from nmm.errors import SolveError
+from nmm.solvers.accuracy.known import known_load
+from nmm.solvers.accuracy.krylov import minimal_residual
 from nmm.solvers.draws import same_draws
-from nmm.solvers.known import known_load
-from nmm.solvers.krylov import minimal_residual
 from nmm.solvers.norm import norm
 from nmm.solvers.scaling import scaled
 from nmm.solvers.unchecked import product

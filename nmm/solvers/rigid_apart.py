@@ -14,7 +14,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array, eye_array
 
 from integration.arrays import Floats
-from nmm.solvers.krylov import minimal_residual
+from nmm.solvers.accuracy.krylov import minimal_residual
 from nmm.solvers.linear import Factor
 from nmm.solvers.unchecked import magnitudes
 

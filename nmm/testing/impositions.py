@@ -10,7 +10,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.state import State, initial_state
 from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface
-from nmm.constraints.shared_edges import gauss_interface, shared_edges
+from nmm.constraints.ties.shared_edges import gauss_interface, shared_edges
 from nmm.effects.base import Instant
 from nmm.formulation import CoverTable
 from nmm.materials.elastic import Elastic

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from nmm.effects.base import Effect
-    from nmm.effects.loads import Load
+    from nmm.effects.loading.loads import Load
     from nmm.formulation import Solver
     from nmm.stepping.drive.linear_statics import Equilibrium
 
@@ -79,7 +79,7 @@ class Problem:
 
     def solve(self, solver: "Solver | None" = None) -> "Equilibrium":
         """Solve in small displacements."""
-        from nmm.effects.loads import Loads
+        from nmm.effects.loading.loads import Loads
         from nmm.stepping.drive.linear_statics import equilibrium
 
         n = self.model.manifold.n_unknowns

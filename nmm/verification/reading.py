@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.momenta import whole_momentum
-from nmm.assembly.motion import rigid_rates
+from nmm.assembly.moving.momenta import whole_momentum
+from nmm.assembly.moving.motion import rigid_rates
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run

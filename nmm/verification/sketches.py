@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from covers.cutting.cut_cells import CutCells
     from integration.polygons import Polygons
     from nmm.constraints.imposition import Imposition
-    from nmm.effects.loads import Load
+    from nmm.effects.loading.loads import Load
     from nmm.scene import Scene
 
 

@@ -18,7 +18,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.places import Place, along_segment, on_parts
 from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
-from nmm.effects.load_factor import load_factor
+from nmm.effects.loading.load_factor import load_factor
 from nmm.errors import Fault, SceneError
 from nmm.water.head import Pressure, pressure_of
 

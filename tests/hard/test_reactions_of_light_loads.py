@@ -57,7 +57,7 @@ def test_ways_of_turned_bodies_are_differences_of_places() -> None:
     from dataclasses import replace
 
     from nmm.assembly.material_points import vertex_points
-    from nmm.assembly.motion import move
+    from nmm.assembly.moving.motion import move
     from nmm.assembly.state import initial_state
 
     found = run(parse_scene(slab(1.0, 1e9, True), "scene"), parse_formulation(""))

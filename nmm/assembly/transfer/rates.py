@@ -10,7 +10,7 @@ from integration.arrays import Floats
 from integration.plane_vectors import cross
 from integration.sparse import csr_array
 from nmm.assembly.model import Model
-from nmm.assembly.momenta import momenta
+from nmm.assembly.moving.momenta import momenta
 
 
 @dataclass(frozen=True)

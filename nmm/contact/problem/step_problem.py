@@ -18,7 +18,7 @@ from nmm.contact.problem.residual_kernel import weighted
 from nmm.contact.problem.row_products import Compressed, along, compressed
 from nmm.frozen import MadeOnce
 from nmm.interfaces.limits import Limits as Limits
-from nmm.solvers.known import known_load
+from nmm.solvers.accuracy.known import known_load
 
 OPEN, STICK, SLIDE, BONDED, BROKEN = ContactState
 STIFFNESSES = ("normal_stiffness", "shear_stiffness")

@@ -7,9 +7,9 @@ import numpy as np
 from integration.arrays import Bools, Floats, Ints
 from integration.plane_vectors import cross
 from nmm.assembly.model import Model
-from nmm.assembly.momenta import rigid_masses
-from nmm.assembly.motion import middle
-from nmm.assembly.moved_bodies import entries
+from nmm.assembly.moving.momenta import rigid_masses
+from nmm.assembly.moving.motion import middle
+from nmm.assembly.moving.moved_bodies import entries
 from nmm.assembly.state import State
 from nmm.contact.detection.tolerances import (
     MIDPOINT_GAPS,

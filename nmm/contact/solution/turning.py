@@ -3,7 +3,7 @@
 import numpy as np
 
 from integration.arrays import Floats, Ints
-from nmm.assembly.moved_bodies import Entries, mean, spread
+from nmm.assembly.moving.moved_bodies import Entries, mean, spread
 from nmm.compiled import compiled
 
 Pressing = tuple[Ints, Ints, Floats, Floats]

@@ -12,7 +12,7 @@ from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup
-from nmm.effects.dead_loads import turned
+from nmm.effects.loading.dead_loads import turned
 from nmm.solvers.unchecked import product
 
 if TYPE_CHECKING:

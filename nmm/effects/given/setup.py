@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.assembly.kinematics import COROTATIONAL, Kinematics
 from nmm.assembly.model import Model
+from nmm.assembly.moving.kinematics import COROTATIONAL, Kinematics
 from nmm.assembly.state import State
 from nmm.geometry.geometry import Geometry
 

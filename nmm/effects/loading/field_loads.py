@@ -15,8 +15,8 @@ from nmm.assembly.places import Place
 from nmm.assembly.state import State
 from nmm.effects.acting_place import edge_place
 from nmm.effects.base import Effect, Instant, Setup
-from nmm.effects.load_factor import load_factor
 from nmm.effects.loading.fields import ValueField
+from nmm.effects.loading.load_factor import load_factor
 
 if TYPE_CHECKING:
     from nmm.scene.tables.loading.loads import LoadTable

@@ -12,7 +12,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.places import on_segment
 from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup
-from nmm.effects.load_factor import load_factor
+from nmm.effects.loading.load_factor import load_factor
 
 if TYPE_CHECKING:
     from nmm.scene.tables.loading.loads import LoadTable

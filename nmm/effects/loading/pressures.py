@@ -10,7 +10,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.effects.acting_place import edge_place
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
-from nmm.effects.load_factor import load_factor
+from nmm.effects.loading.load_factor import load_factor
 from nmm.effects.loading.surface_pressure import PressedSurfaces, SurfacePressure, along_surface
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.assembly.places import Place
 from nmm.effects.base import Instant, Setup
-from nmm.effects.load_factor import displacement_factor
+from nmm.effects.loading.load_factor import displacement_factor
 
 if TYPE_CHECKING:
     from nmm.effects.motion.record import GroundMotion

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from nmm.constraints.shared_edges import bonded_groups
+from nmm.constraints.ties.shared_edges import bonded_groups
 from nmm.effects.base import Setup
 from nmm.fracture.growth.growing import GrowingCracks
 from nmm.fracture.growth.grown import GrownSoFar

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from nmm.effects.contact import Contact
     from nmm.effects.inertia import Inertia
     from nmm.effects.initial.initial_stress import InitialStress
-    from nmm.effects.loads import Loads
+    from nmm.effects.loading.loads import Loads
     from nmm.fracture.growth.growing import GrowingCracks
     from nmm.splitting.splitting import Splitting
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.motion import rigid_rates
+from nmm.assembly.moving.motion import rigid_rates
 from nmm.assembly.state import State
 
 if TYPE_CHECKING:

@@ -4,9 +4,9 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from integration.arrays import Floats
-from nmm.assembly.motion import coordinate_rounding
+from nmm.assembly.moving.motion import coordinate_rounding
 from nmm.effects.base import Instant
-from nmm.solvers.known import gross
+from nmm.solvers.accuracy.known import gross
 from nmm.solvers.unchecked import magnitudes
 from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings, percent
 from nmm.stepping.audits.table import THRESHOLDS

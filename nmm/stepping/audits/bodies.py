@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.momenta import momenta_about, own_momenta, rigid_masses
+from nmm.assembly.moving.momenta import momenta_about, own_momenta, rigid_masses
 from nmm.assembly.state import State
 from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings, percent
 from nmm.stepping.step.stepper import Stepper

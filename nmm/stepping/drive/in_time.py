@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING
 
-from nmm.assembly.motion import coordinate_rounding
+from nmm.assembly.moving.motion import coordinate_rounding
 from nmm.assembly.state import State
 from nmm.frozen import with_parts
 

@@ -13,14 +13,14 @@ from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.places import Place
 from nmm.assembly.state import State, initial_state
-from nmm.constraints.bonded_interfaces import BondedInterfaces, glue_edges
 from nmm.constraints.imposition import Method
-from nmm.constraints.shared_edges import shared_edges
 from nmm.constraints.supports import Supports
+from nmm.constraints.ties.bonded_interfaces import BondedInterfaces, glue_edges
+from nmm.constraints.ties.shared_edges import shared_edges
 from nmm.effects.base import Effect, Instant
 from nmm.effects.loading.field_loads import FieldLoads, SpreadLoad
 from nmm.effects.loading.fields import ValueField
-from nmm.effects.loads import Load, Loads
+from nmm.effects.loading.loads import Load, Loads
 from nmm.errors import FormulationError
 from nmm.formulation import Glue, IntegratorTable, Solver
 from nmm.integrators.base import make_integrator
@@ -28,8 +28,8 @@ from nmm.model.planning.plan import Plan
 from nmm.model.planning.pressures import lifted_energy, patch_pressures
 from nmm.model.solver_settings import solver_for
 from nmm.solvers.linear import Factor
-from nmm.stepping.step.assembly import Assembly
-from nmm.stepping.step.linear_system import LinearSystem
+from nmm.stepping.step.linear.assembly import Assembly
+from nmm.stepping.step.linear.linear_system import LinearSystem
 
 Field = Callable[[Floats], Floats]
 

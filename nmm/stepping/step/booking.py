@@ -15,7 +15,7 @@ from nmm.solvers.unchecked import product
 
 if TYPE_CHECKING:
     from nmm.contact.solution.record import ContactSolution
-    from nmm.stepping.step.equations import Equations
+    from nmm.stepping.step.linear.equations import Equations
 
 
 @dataclass(frozen=True)

@@ -8,16 +8,16 @@ from scipy.sparse import csc_array
 from integration.arrays import Floats, Ints
 from integration.contraction import contract, largest
 from nmm.assembly.kept import KeptOfPlaces
-from nmm.assembly.kinematics import Kinematics
 from nmm.assembly.material_points import vertex_points
 from nmm.assembly.model import Model
-from nmm.assembly.motion import move as plainly
+from nmm.assembly.moving.kinematics import Kinematics
+from nmm.assembly.moving.motion import move as plainly
 from nmm.assembly.state import State
 from nmm.frozen import with_parts
 from nmm.model.discretisation import CurrentDiscretisation
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.stepping.step.clock import Clock
-from nmm.stepping.step.equations import Equations
+from nmm.stepping.step.linear.equations import Equations
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ class Mover:
         """Return a state moved by ``increment`` (n,), by compiled code where bodies may touch."""
         move, frames = self.kinematics.move, state.frames
         if move is plainly and self.current.plan.contact is not None and frames.way is not None:
-            from nmm.assembly.moved_bodies import move
+            from nmm.assembly.moving.moved_bodies import move
         return move(self.current.model, state, increment)
 
     def _faster(self, equations: Equations, increment: Floats, push: Floats | None) -> State:

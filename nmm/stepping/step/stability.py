@@ -11,7 +11,7 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.solvers.factor import Factor
-from nmm.stepping.step.equations import Equations
+from nmm.stepping.step.linear.equations import Equations
 from nmm.stepping.step.trial import Attempt
 
 # Turns of inverse iteration: each brings out the softest motion by the ratio of two stiffnesses.

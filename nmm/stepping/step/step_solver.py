@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.kinematics import Kinematics
-from nmm.assembly.motion import carried_on
+from nmm.assembly.moving.kinematics import Kinematics
+from nmm.assembly.moving.motion import carried_on
 from nmm.assembly.state import State
 from nmm.effects.base import Instant, Span
 from nmm.errors import SolveError
@@ -18,12 +18,12 @@ from nmm.integrators.base import Integrator
 from nmm.model.discretisation import CurrentDiscretisation
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.solvers.unchecked import product
-from nmm.stepping.step.assembly import Assembly
 from nmm.stepping.step.booking import booked
 from nmm.stepping.step.carried import CarriedState
 from nmm.stepping.step.clock import Clock
-from nmm.stepping.step.equations import Carriage, Equations, Linearisation, spinning
-from nmm.stepping.step.free_step import FreeStepSolver
+from nmm.stepping.step.linear.assembly import Assembly
+from nmm.stepping.step.linear.equations import Carriage, Equations, Linearisation, spinning
+from nmm.stepping.step.linear.free_step import FreeStepSolver
 from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.nonlinear.inner import InternalForces
 from nmm.stepping.step.nonlinear.iterate import Solution, Solve

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.kinematics import Kinematics
 from nmm.assembly.material_points import MaterialPoints
+from nmm.assembly.moving.kinematics import Kinematics
 from nmm.assembly.state import State
 from nmm.effects.base import Instant
 from nmm.integrators.base import Integrator

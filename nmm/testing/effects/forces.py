@@ -18,9 +18,9 @@ from scipy.integrate import simpson, trapezoid
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.assembly.kinematics import SMALL, Kinematics
 from nmm.assembly.model import Model
-from nmm.assembly.motion import strain_only
+from nmm.assembly.moving.kinematics import SMALL, Kinematics
+from nmm.assembly.moving.motion import strain_only
 from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Span, StepForce, defines
 from nmm.frozen import with_parts

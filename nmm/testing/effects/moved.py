@@ -13,7 +13,7 @@ import numpy as np
 from integration.arrays import Floats
 from integration.rules import polygon_rule
 from nmm.assembly.model import Model
-from nmm.assembly.motion import strain_only
+from nmm.assembly.moving.motion import strain_only
 from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, defines
 from nmm.testing.claims import claim, close

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.kinematics import SMALL, Kinematics
 from nmm.assembly.model import Model
+from nmm.assembly.moving.kinematics import SMALL, Kinematics
 from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, defines
 from nmm.quantity import PLACES, Quantity

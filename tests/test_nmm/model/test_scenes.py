@@ -295,7 +295,7 @@ def test_ten_turns_in_a_thousand_steps_do_not_drift(name: str) -> None:
 
 @pytest.mark.parametrize("name", [*MESHES])
 def test_stress_turns_with_the_body_under_any_cover(name: str) -> None:
-    from nmm.assembly.motion import move
+    from nmm.assembly.moving.motion import move
     from nmm.assembly.places import on_edges
     from nmm.constraints.imposition import Method
     from nmm.stepping.drive.linear_statics import equilibrium, hold

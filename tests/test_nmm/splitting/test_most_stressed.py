@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import nmm
-from nmm.assembly.momenta import momenta_about, rigid_momenta
+from nmm.assembly.moving.momenta import momenta_about, rigid_momenta
 from nmm.assembly.state import initial_state
 from nmm.stepping.prepare import prepare
 from nmm.verification.problems.splitting.pieces import moving

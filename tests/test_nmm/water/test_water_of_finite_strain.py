@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import brentq
 
 import nmm
-from nmm.assembly.momenta import momenta
+from nmm.assembly.moving.momenta import momenta
 from nmm.effects.base import Instant
 from nmm.errors import FormulationError
 from nmm.formulation import parse_formulation

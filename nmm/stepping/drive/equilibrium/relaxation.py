@@ -14,7 +14,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.momenta import rigid_masses
+from nmm.assembly.moving.momenta import rigid_masses
 from nmm.assembly.state import State
 from nmm.effects.base import Instant
 from nmm.integrators.shi import Shi

@@ -19,7 +19,7 @@ from nmm.contact.solution.request import StepRequest
 from nmm.effects.base import Instant, Span
 from nmm.solvers.linear import LinearSolver
 from nmm.stepping.step.contact.contact_search import ContactSearch
-from nmm.stepping.step.equations import Equations
+from nmm.stepping.step.linear.equations import Equations
 from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.trial import Attempt
 

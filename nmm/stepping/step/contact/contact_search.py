@@ -8,7 +8,7 @@ act elsewhere half way.
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from nmm.assembly.motion import middle
+from nmm.assembly.moving.motion import middle
 from nmm.assembly.state import State
 from nmm.contact.candidates.held_back import joined
 from nmm.contact.detection.tolerances import (
@@ -19,7 +19,7 @@ from nmm.contact.detection.tolerances import (
 )
 from nmm.model.discretisation import CurrentDiscretisation
 from nmm.stepping.step.clock import Clock
-from nmm.stepping.step.equations import Equations, misjudged
+from nmm.stepping.step.linear.equations import Equations, misjudged
 from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.trial import Attempt
 

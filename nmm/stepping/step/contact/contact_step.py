@@ -13,7 +13,7 @@ from nmm.solvers.linear import LinearSolver
 from nmm.solvers.unchecked import product
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.contact.contact_search import ContactSearch, SoughtContacts
-from nmm.stepping.step.equations import Equations, spinning
+from nmm.stepping.step.linear.equations import Equations, spinning
 from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.trial import Attempt
 

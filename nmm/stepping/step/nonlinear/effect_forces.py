@@ -14,8 +14,8 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.assembly.kinematics import Kinematics
-from nmm.assembly.motion import coordinate_rounding
+from nmm.assembly.moving.kinematics import Kinematics
+from nmm.assembly.moving.motion import coordinate_rounding
 from nmm.assembly.state import State
 from nmm.effects.base import Instant, Span, StepForce, defines
 from nmm.model.discretisation import CurrentDiscretisation

@@ -6,7 +6,7 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.solvers.unchecked import product
-from nmm.stepping.step.equations import Linearisation
+from nmm.stepping.step.linear.equations import Linearisation
 from nmm.stepping.step.nonlinear.iterate import Iterate, Solve
 
 # Stiffness against the last iteration's motion, as a share of the elastic one, that shows flow.

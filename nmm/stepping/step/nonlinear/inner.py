@@ -3,13 +3,13 @@
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.kinematics import Kinematics
+from nmm.assembly.moving.kinematics import Kinematics
 from nmm.assembly.state import State
 from nmm.effects.base import Instant, Span
 from nmm.integrators.base import Integrator
 from nmm.model.discretisation import CurrentDiscretisation
-from nmm.stepping.step.assembly import BALANCED
 from nmm.stepping.step.clock import Clock
+from nmm.stepping.step.linear.assembly import BALANCED
 from nmm.stepping.step.nonlinear.effect_forces import EffectForces
 from nmm.stepping.step.nonlinear.iterate import Iterate
 from nmm.stepping.step.nonlinear.matter_forces import MatterForces

@@ -9,7 +9,7 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.solvers.unchecked import product
-from nmm.stepping.step.equations import Equations, Linearisation
+from nmm.stepping.step.linear.equations import Equations, Linearisation
 from nmm.stepping.step.trial import Attempt
 
 Solution = tuple[Equations, Attempt]

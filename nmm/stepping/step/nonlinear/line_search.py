@@ -1,6 +1,6 @@
 """How far an iteration goes: the whole step, or less where forces overshoot along it."""
 
-from nmm.stepping.step.equations import Equations, Linearisation
+from nmm.stepping.step.linear.equations import Equations, Linearisation
 from nmm.stepping.step.nonlinear.inner import InternalForces
 from nmm.stepping.step.nonlinear.iterate import Iterate
 

@@ -15,7 +15,7 @@ from nmm.assembly.state import State
 from nmm.frozen import with_parts
 from nmm.solvers.unchecked import product
 from nmm.stepping.step.clock import Clock
-from nmm.stepping.step.equations import Linearisation
+from nmm.stepping.step.linear.equations import Linearisation
 from nmm.stepping.step.nonlinear.flow import flow, mechanism
 from nmm.stepping.step.nonlinear.inner import InternalForces
 from nmm.stepping.step.nonlinear.iterate import Iterate, Solution, Solve

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.momenta import own_momenta
+from nmm.assembly.moving.momenta import own_momenta
 from nmm.verification import text
 from nmm.verification.base import Checks, SceneCase, limit
 from nmm.verification.reading import last_way

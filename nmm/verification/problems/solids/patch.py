@@ -10,7 +10,7 @@ from integration.polygons import Polygons
 from integration.rules import polygon_rule
 from nmm.assembly.errors import stresses
 from nmm.assembly.material_points import vertex_points
-from nmm.assembly.motion import move
+from nmm.assembly.moving.motion import move
 from nmm.assembly.state import initial_state
 from nmm.formulation import Formulation
 from nmm.materials.elastic import Elastic

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 
 from covers.approximation.own_rule import own_rule
-from nmm.assembly.momenta import rigid_masses, whole_momentum
-from nmm.assembly.motion import rigid_rates
+from nmm.assembly.moving.momenta import rigid_masses, whole_momentum
+from nmm.assembly.moving.motion import rigid_rates
 from nmm.assembly.state import State, initial_state
 from nmm.splitting.cuts import pieces
 from nmm.splitting.division import replaced

@@ -8,12 +8,12 @@ import numpy as np
 
 from nmm.verification import text
 from nmm.verification.base import Case, Check, Checks, SceneCase, limit
-from nmm.water.network import JointNetwork
+from nmm.water.joints.network import JointNetwork
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run
-    from nmm.water.joint_flow import JointFlow
-    from nmm.water.joint_storage import JointStorage
+    from nmm.water.joints.steady_flow import JointFlow
+    from nmm.water.joints.storage import JointStorage
 
 FLOW = "[joint_flow]\n"
 SMALL = "contact presses blocks by micrometres, joints are open by tenths of a millimetre"

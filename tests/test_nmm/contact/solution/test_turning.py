@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.sparse import csc_array
 
-from nmm.assembly.moved_bodies import entries
+from nmm.assembly.moving.moved_bodies import entries
 from nmm.contact.solution.turning import foreseen, matters, owed
 
 ONE = np.array([0]), np.array([1])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from nmm.assembly.motion import rigid_rates
+from nmm.assembly.moving.motion import rigid_rates
 from nmm.formulation import parse_formulation
 from nmm.scene import parse_scene
 from nmm.stepping.run import run

@@ -10,8 +10,8 @@ import pytest
 import nmm
 from nmm.contact.solution import driver
 from nmm.scene import parse_scene
-from nmm.stepping.step.equations import Equations
-from nmm.stepping.step.linear_system import LinearSolution, LinearSystem
+from nmm.stepping.step.linear.equations import Equations
+from nmm.stepping.step.linear.linear_system import LinearSolution, LinearSystem
 from nmm.verification import text
 
 STACK = text.scene(

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nmm.assembly.momenta import momenta
+from nmm.assembly.moving.momenta import momenta
 from nmm.effects.base import Instant
 from nmm.errors import FormulationError
 from nmm.formulation import parse_formulation

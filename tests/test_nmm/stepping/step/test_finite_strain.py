@@ -9,7 +9,7 @@ import pytest
 
 import nmm
 from covers.approximation.own_rule import own_rule
-from nmm.assembly.momenta import momenta
+from nmm.assembly.moving.momenta import momenta
 from nmm.effects.base import Instant, Span
 from nmm.errors import NmmError
 from nmm.formulation import parse_formulation

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import nmm
-from nmm.assembly.momenta import momenta
+from nmm.assembly.moving.momenta import momenta
 from nmm.effects.base import Instant
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene

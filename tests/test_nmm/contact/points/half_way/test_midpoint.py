@@ -9,7 +9,7 @@ from scipy.sparse import csr_array, diags_array
 import nmm
 from covers.approximation.rows import row_matrix
 from integration.plane_vectors import clockwise
-from nmm.assembly.motion import middle
+from nmm.assembly.moving.motion import middle
 from nmm.contact.points.contact_rows import contact_rows
 from nmm.contact.points.half_way.midpoint import body_projection, midpoint_rows
 from nmm.frozen import with_parts

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from nmm.assembly.motion import middle, move
+from nmm.assembly.moving.motion import middle, move
 from nmm.contact.points.half_way.turning_rows import turning_rows
 from nmm.formulation import parse_formulation
 from nmm.frozen import with_parts
