@@ -82,7 +82,7 @@ class Manifold:
     mended: dict[str, int] = field(default_factory=dict)
     singular: Floats = field(default_factory=lambda: np.empty((0, 2)))
 
-    @cached_property
+    @property
     def rigid_modes(self) -> csc_array:
         """Unknowns of rigid motions.
 
@@ -91,7 +91,7 @@ class Manifold:
         """
         return self.motions.rigid
 
-    @cached_property
+    @property
     def stretch_modes(self) -> csc_array:
         """(n_unknowns, B) unknowns of the field ``X - Xc`` of each body."""
         return self.motions.stretch

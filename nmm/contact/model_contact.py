@@ -262,7 +262,7 @@ class ModelContact:
         if self.bonds.terms is None:
             return None
         now = self._candidates.joints(self.record.book, state)
-        return self.bonds.held(now, state, self.geometry.rows(now, state))
+        return self.bonds.held(now, state, partial(self.geometry.rows, now, state))
 
     def energy(self, state: State) -> float:
         """Energy of contacts as last committed (J); see `ContactSteps.energy`."""

@@ -18,6 +18,9 @@ from nmm.assembly.tractions.donors import Flux, added_traction
 StressRows = Callable[[Ints, Floats], tuple[Floats, csr_array]]
 """From elements (m,) and points to the stress (m, 3) of a unit, and rows (m, k) of units there."""
 
+JumpRows = Callable[[], tuple[csr_array, csr_array]]
+"""To rows (m, n) of a jump along x and along y."""
+
 
 @dataclass(frozen=True)
 class HeldEdge:
@@ -34,7 +37,7 @@ class HeldEdge:
     jump
         (m, 2) of the first side less the second, in global axes (m).
     rows
-        (m, n) of the jump along x and along y.
+        Of the jump, made when they are asked for.
     at
         Which points of the fluxes they are; None is all of them.
     """
@@ -43,7 +46,7 @@ class HeldEdge:
     frames: Frames
     area: Floats
     jump: Floats
-    rows: tuple[csr_array, csr_array]
+    rows: JumpRows
     at: Ints | None = None
 
     @property
@@ -72,8 +75,9 @@ class HeldEdge:
 
     def coupling(self, stress: StressRows) -> csr_array:
         """Return the force (n, k) of units of the stress on the unknowns (N)."""
+        along_x, along_y = self.rows()
         x, y = self.tractions(stress)
-        return csr_array(self.rows[0].T @ x + self.rows[1].T @ y)
+        return csr_array(along_x.T @ x + along_y.T @ y)
 
     def work(self, stress: StressRows) -> Floats:
         """Return the work (k,) of units of the stress on the jump (J)."""

@@ -104,9 +104,11 @@ class Nitsche(Imposition):
         return self.interface.area[:, None] * total
 
     def held_edge(self, state: State, jump: Floats) -> HeldEdge:
-        rows = sparse_rows(*self.interface.rows(state), len(state.deformation))
-        both = csr_array(rows[0::2]), csr_array(rows[1::2])
-        return HeldEdge(self.fluxes, state.frames, self.interface.area, jump, both)
+        def rows() -> tuple[csr_array, csr_array]:
+            both = sparse_rows(*self.interface.rows(state), len(state.deformation))
+            return csr_array(both[0::2]), csr_array(both[1::2])
+
+        return HeldEdge(self.fluxes, state.frames, self.interface.area, jump, rows)
 
     def energy(self, state: State, jump: Floats) -> float:
         """Minus tractions times jumps, half the penalty's and the ghost's; it may be negative."""

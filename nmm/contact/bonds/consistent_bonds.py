@@ -6,7 +6,7 @@ meets the criterion the bond passes to its cohesive or brittle law (Mergheim, Ku
 2004; Noels and Radovitzky 2008).
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Self
 
@@ -117,17 +117,25 @@ class ConsistentBonds:
         return self.number[-1 - joints.key]
 
     def held(
-        self, bonds: ContactPoints, frames: Frames, gaps: csr_array, slips: csr_array
+        self,
+        bonds: ContactPoints,
+        frames: Frames,
+        moves: Callable[[], tuple[csr_array, csr_array]],
     ) -> HeldEdge:
-        """Return whole bonds (k,) as points of an edge, with rows (k, n) of gaps and slips."""
+        """Return whole bonds (k,) as points of an edge; ``moves`` are rows of gaps and slips."""
         row, across = self.row(bonds), bonds.normal
         along = clockwise(across)
         jump = bonds.gap[:, None] * across + bonds.slip[:, None] * along
-        x, y = (
-            csr_array(diags_array(across[:, i]) @ gaps + diags_array(along[:, i]) @ slips)
-            for i in (0, 1)
-        )
-        return HeldEdge(self.fluxes, frames, self.area[row], jump, (x, y), row)
+
+        def rows() -> tuple[csr_array, csr_array]:
+            gaps, slips = moves()
+            x, y = (
+                csr_array(diags_array(across[:, i]) @ gaps + diags_array(along[:, i]) @ slips)
+                for i in (0, 1)
+            )
+            return x, y
+
+        return HeldEdge(self.fluxes, frames, self.area[row], jump, rows, row)
 
     def averages(
         self, contacts: ContactPoints, state: State, stresses: Sequence[StressAt], time: float

@@ -23,9 +23,8 @@ def in_kinks(surface: Surface, vertex: Ints, edge: Ints, reach: float) -> tuple[
     reach
         Largest distance of the vertex from the ends of both edges (m).
     """
-    ending, beginning = _bounding(surface, vertex, edge, np.full(len(vertex), reach))
-    found = np.unique(np.concatenate([ending, beginning]))
-    return vertex[found], edge[found]
+    both = _bounding(surface, vertex, edge, np.full(len(vertex), reach))
+    return _pairs_of(vertex, edge, both)
 
 
 def standing(surface: Surface, vertex: Ints, edge: Ints) -> tuple[Ints, Ints]:
@@ -43,7 +42,12 @@ def standing(surface: Surface, vertex: Ints, edge: Ints) -> tuple[Ints, Ints]:
     ending, beginning = _bounding(surface, vertex, edge, flush)
     ending = ending[~_sided(surface, vertex[ending], -surface.direction[edge[ending]])]
     beginning = beginning[~_sided(surface, vertex[beginning], surface.direction[edge[beginning]])]
-    found = np.unique(np.concatenate([ending, beginning]))
+    return _pairs_of(vertex, edge, (ending, beginning))
+
+
+def _pairs_of(vertex: Ints, edge: Ints, rows: tuple[Ints, Ints]) -> tuple[Ints, Ints]:
+    """Return the pairs at rows (k,) of edges that end in kinks or begin there, each once."""
+    found = np.unique(np.concatenate(rows))
     return vertex[found], edge[found]
 
 

@@ -1,12 +1,13 @@
 """Bonds held by consistent terms (Nitsche's), as the steps of a run use them."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from integration.arrays import Bools, Floats
+from integration.sparse import csr_array
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
@@ -65,13 +66,22 @@ class StepBonds:
 
         return TiedBonds.of(self.terms, contacts, state, rows, weight, self.stresses, time)
 
-    def held(self, joints: ContactPoints, state: State, rows: "ContactRows") -> HeldEdge | None:
-        """Return the whole bonds among joints and ``rows`` as an edge; None without any."""
+    def held(
+        self, joints: ContactPoints, state: State, rows: "Callable[[], ContactRows]"
+    ) -> HeldEdge | None:
+        """Return the whole bonds among joints as an edge; None without any.
+
+        ``rows`` are those of all joints, made when the edge is asked for its own.
+        """
         index = np.flatnonzero(joints.tied)
         if self.terms is None or not len(index):
             return None
-        some, own = joints.take(index), (rows.normal[index], rows.tangent[index])
-        return self.terms.held(some, state.frames, *own)
+
+        def moves() -> tuple[csr_array, csr_array]:
+            found = rows()
+            return found.normal[index], found.tangent[index]
+
+        return self.terms.held(joints.take(index), state.frames, moves)
 
     def mixed(
         self, contacts: ContactPoints, state: State, time: float | None = None

@@ -114,6 +114,12 @@ class JointBalance:
         below = np.where(self.dry(head, volume), empty, drained)
         return np.where(self.pressed(head), joints.store * above, below)
 
+    def free(self, given: Ints) -> Bools:
+        """Which nodes (n,) have heads to be found: all but those whose heads are ``given`` (k,)."""
+        found = np.ones(self.network.n, dtype=bool)
+        found[given] = False
+        return found
+
     def heads(
         self,
         joints: OpenJoints,
@@ -136,8 +142,7 @@ class JointBalance:
             Its length (s).
         """
         (first, last), head = volumes, begun.copy()
-        free = np.ones(len(begun), dtype=bool)
-        head[given[0]], free[given[0]] = given[1], False
+        head[given[0]], free = given[1], self.free(given[0])
         before = self.beyond(joints, begun, first) - (last - first)
 
         def lacking(trial: Floats) -> Floats:

@@ -194,8 +194,7 @@ class JointStorage(JointWater):
         With shares (n,) it is the derivative of so much of the pressures; without it is symmetric,
         of nodes under pressure that respond to their volumes alone.
         """
-        free = np.ones(self.network.n, dtype=bool)
-        free[self.given(end.time / self._second)[0]] = False
+        free = self._balance.free(self.given(end.time / self._second)[0])
         wet = free & self._balance.pressed(end.head)
         if not wet.any():
             return csc_array((self.n_unknowns, self.n_unknowns))
