@@ -35,6 +35,7 @@ from nmm.geometry.tessellation.cover_types import highest_degree
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
+    from nmm.integrators.base import Integrator
     from nmm.scene.actions import SupportTable
 
 # Of the size of a body: points of one coordinate.
@@ -154,16 +155,24 @@ class Supports(TiedInterfaces):
     def work(self, before: State, after: State) -> float:
         """Mean reaction of each driven support times the way it is driven."""
         total = super().work(before, after)
-        for first, last, way in self._pushed(before, after):
+        for _, first, last, way in self._pushed(before, after):
             total += float(np.sum((first + last) / 2 * way))
         for shared in self._spaces:
             shared.before = shared.values
         return total
 
-    def work_of_rise(self, before: State, after: State) -> float:
-        """Rise of the reaction of each driven support in a step times the way it is driven (J)."""
-        pushed = self._pushed(before, after)
-        return sum(float(np.sum((last - first) * way)) for first, last, way in pushed)
+    def late_work(self, before: State, after: State, rule: "Integrator") -> float:
+        """Work (J) of driven supports beyond `work`, as ``rule`` has them act (`Integrator.late`).
+
+        A multiplier, which is the force at the weighed instant of its step, is taken from there.
+        """
+        total = 0.0
+        for number, first, last, way in self._pushed(before, after):
+            late, tie = rule.late, self.ties[number]
+            if tie.shared is not None and self._in_time:
+                first, late = self._earlier(number, before), late + 0.5 - rule.end_weight
+            total += late * float(np.sum((last - first) * way))
+        return total
 
     def first_work(self, before: State, after: State) -> float:
         """See `Effect.first_work`.
@@ -204,12 +213,12 @@ class Supports(TiedInterfaces):
             return forces
         return forces + tie.interface.held * self._added(tie, state, Instant.of(state))
 
-    def _pushed(self, before: State, after: State) -> Iterator[tuple[Floats, Floats, Floats]]:
-        """Forces (m, 2) of a support at both ends of a step and its way; of those that move."""
+    def _pushed(self, before: State, after: State) -> Iterator[tuple[int, Floats, Floats, Floats]]:
+        """Number of a support, forces (m, 2) at both ends of a step, way; of those that move."""
         still = self._in_time and self.steady
         for number, start, end in () if still else self._driven(before, after):
             if (end != start).any():
-                yield *self._ends(number, before, after), end - start
+                yield number, *self._ends(number, before, after), end - start
 
     def _driven(self, before: State, after: State) -> Iterator[tuple[int, Floats, Floats]]:
         """Number of each support and its displacements, (2,) or (m, 2), at both ends of a step."""
@@ -228,8 +237,12 @@ class Supports(TiedInterfaces):
         last = self._with_added(tie.point_forces(after, jump), tie, after)
         if tie.shared is not None and self._in_time:
             return last, last
-        jump = self._jumps(before, Instant.of(before))[number]
-        return self._with_added(tie.earlier_forces(before, jump), tie, before), last
+        return self._earlier(number, before), last
+
+    def _earlier(self, number: int, before: State) -> Floats:
+        """Forces (m, 2) in N of a support on its points as the step began."""
+        tie, jump = self.ties[number], self._jumps(before, Instant.of(before))[number]
+        return self._with_added(tie.earlier_forces(before, jump), tie, before)
 
 
 def _anchored(tie: Imposition, state: State) -> Imposition:

@@ -67,6 +67,14 @@ class Integrator(ABC):
         return 1.0
 
     @property
+    def late(self) -> float:
+        """How long after the middle of a step its forces act on the motion, as a share of it.
+
+        That is the error of order one: `end_weight` less 1/2, and less what velocities are behind.
+        """
+        return self.end_weight - 0.5
+
+    @property
     def limit(self) -> float:
         """Largest product of circular frequency and step that is stable; infinite where any is."""
         return inf

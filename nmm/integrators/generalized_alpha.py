@@ -52,6 +52,11 @@ class GeneralizedAlpha(Newmark):
         return 1 - self._alpha_f
 
     @property
+    def late(self) -> float:
+        """None: accelerations are behind by as much as forces act after the middle."""
+        return 0.0
+
+    @property
     def contact_weight(self) -> float:
         """``1 - alpha_f``, that of elastic forces."""
         return self.end_weight

@@ -51,6 +51,11 @@ class Newmark(Integrator):
         return 1.0 if self.carries else self.gamma
 
     @property
+    def late(self) -> float:
+        """``gamma - 1/2``."""
+        return self.gamma - 0.5
+
+    @property
     def contact_weight(self) -> float:
         """``gamma``, at most 1."""
         return min(self.gamma, 1.0)

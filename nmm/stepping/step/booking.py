@@ -3,7 +3,8 @@
 A step's equations, multiplied by its increment ``d``, are a balance of work: inertia took ``i``,
 contact forces ``N`` did ``N d``, and elastic, holding and applied forces act with the weight ``w``
 at the end. What springs and matter lose by it beside the mean of both ends is the integrator's own,
-and so is what the velocity does not show of ``i``. Applied forces do the work of those that acted.
+and so is what the velocity does not show of ``i``. Applied forces do the work of those that acted
+where the motion has them (`Integrator.late`): a rule of order 2 has the mean of both ends.
 """
 
 from collections.abc import Mapping
@@ -33,8 +34,8 @@ class BookedWork:
     contact_factor
         `Integrator.contact_factor`.
     late
-        What applied forces and driven supports do more than the mean of both ends, as they act
-        nearer the end of a step: `Effect.work` does not know the rule.
+        What applied forces and driven supports do more than `Effect.work` says, which does not know
+        the rule: see `Integrator.late`.
     damping
         Taken by dampers, by effect.
     """
@@ -68,7 +69,7 @@ def booked(
 
     ``missed`` (J) is what the mean force of matter at both ends does beyond what it stores,
     ``work_correction`` what forces of effects seem to do and do not (`Effect.work_correction`),
-    and ``driven`` what the rise of reactions does on the way of driven supports.
+    and ``driven`` what `Supports.late_work` says.
     """
     terms = equations.inertia
     if terms is None:
@@ -90,7 +91,7 @@ def booked(
         elastic = whole - heavy - damped - added
         beyond += (terms.weight - 0.5) * (elastic / terms.weight - work_correction - more)
         applied = 0.0 if terms.applied is None else float(increment @ terms.applied)
-        late = (terms.weight - 0.5) * (applied + driven)
+        late = equations.rule.late * applied + driven
     work = 0.0
     if solved is not None and solved.rows is not None:
         work = -float(solved.push @ increment)

@@ -160,7 +160,7 @@ class StepSolver:
             span = Span(step, equations.inertia.weight, half=not equations.rule.carries)
             off = plan.work_correction(state, found.state, found.increment, span)
             if plan.supports is not None:
-                driven = plan.supports.work_of_rise(state, found.state)
+                driven = plan.supports.late_work(state, found.state, equations.rule)
         work = booked(equations, found.increment, found.solved, missed, off, driven)
         return with_parts(found, booked=work)
 
