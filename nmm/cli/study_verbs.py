@@ -82,12 +82,19 @@ def ablate(
         import nmm
         from nmm.results.storage.writing import told, write_text
         from nmm.study.ablation.ablate import ablate as run_without
-        from nmm.study.ablation.page import ablation_costs, ablation_table, ablation_verdict
+        from nmm.study.ablation.page import (
+            ablation_costs,
+            ablation_rounding,
+            ablation_table,
+            ablation_verdict,
+        )
 
         ((_, method),) = formulations_of(scene, [formulation] if formulation else []).items()
         with progress_bar(quiet) as progress:
             found = run_without(nmm.read_scene(scene), method, quantity or (), repeats, progress)
-        said = ablation_verdict(found), ablation_costs(found)
+        said = filter(
+            None, (ablation_verdict(found), ablation_costs(found), ablation_rounding(found))
+        )
         lines = [*ablation_table(found), "", *said]
         for line in lines:
             typer.echo(line)

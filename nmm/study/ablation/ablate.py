@@ -4,6 +4,8 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from nmm.errors import FormulationError, NmmError, in_a_line
 from nmm.formulation import Formulation
 from nmm.model.called_for import called_for
@@ -17,7 +19,12 @@ from nmm.study.cases.quantities import check_quantity_name
 from nmm.study.cases.record import Record
 from nmm.study.cases.variants import StudyCase
 
+MOTIONS = ("monitor:", "max:monitor:", "min:monitor:")
+"""Beginnings of names of displacements."""
 WHOLE = "the whole scene"
+SOLVED, ROUNDED = 1e-9, 1e-12
+"""Rounding of quantities: of what they are parts of in the whole scene; and of the largest of that
+in any run, that of displacements of the largest coordinate too."""
 LONG = 5.0
 """Seconds from which runs are not repeated for what their first one compiles."""
 
@@ -54,23 +61,39 @@ class Ablation:
         Names of what is compared.
     whole, rows
         The runs.
+    span
+        Largest coordinate of the scene (m).
     """
 
     quantities: tuple[str, ...]
     whole: AblationRow
     rows: tuple[AblationRow, ...]
+    span: float = 0.0
+
+    def rounding(self, name: str) -> float:
+        """Size of a quantity up to which it is rounding, in its unit."""
+        runs = [_largest(self._by_name(row), name) for row in (self.whole, *self.rows)]
+        moves = self.span if name.startswith(MOTIONS) else 0.0
+        largest = max([moves, *(size for size in runs if math.isfinite(size))])
+        return max(ROUNDED * largest, SOLVED * runs[0] if math.isfinite(runs[0]) else 0.0)
+
+    def _by_name(self, row: AblationRow) -> Mapping[str, float]:
+        return dict(zip(self.quantities, row.values, strict=True))
 
     def changes(self, row: AblationRow) -> tuple[float, ...]:
         """Changes of the quantities, as shares of what they are parts of in the whole scene.
 
         Components of one vector, whose names differ in what follows the last colon, are shares of
-        the largest of them; where that is zero, changes are what they are.
+        the largest of them. A change that is `rounding` is zero, that of what is so infinite.
         """
-        whole = dict(zip(self.quantities, self.whole.values, strict=True))
-        return tuple(
-            (value - whole[name]) / (_largest(whole, name) or 1.0)
-            for name, value in zip(self.quantities, row.values, strict=True)
-        )
+        return tuple(self._change(name, value) for name, value in self._by_name(row).items())
+
+    def _change(self, name: str, value: float) -> float:
+        whole, least = self._by_name(self.whole), self.rounding(name)
+        change, size = value - whole[name], _largest(whole, name)
+        if abs(change) <= least:
+            return 0.0
+        return math.copysign(math.inf, change) if size <= least else change / size
 
     def ends(self, row: AblationRow) -> bool:
         """Whether a run came to another end than the whole scene, without the quantities."""
@@ -127,7 +150,13 @@ def ablate(
     if records[0].status == "error":
         raise NmmError(records[0].sentence)
     first, *rest = [_row(record, names) for record in records]
-    return Ablation(names, first, (*rest, *refused))
+    return Ablation(names, first, (*rest, *refused), _span(scene))
+
+
+def _span(scene: Scene) -> float:
+    outlines = [one.vertices for one in scene.blocks]
+    outlines += [one.region for one in scene.tessellations]
+    return max((float(np.abs(ring).max()) for ring in outlines), default=0.0)
 
 
 def _largest(values: Mapping[str, float], name: str) -> float:

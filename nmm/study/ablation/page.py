@@ -16,7 +16,8 @@ def ablation_table(found: Ablation) -> list[str]:
     """Return the lines of a table: what was left out, changes of the quantities, seconds saved."""
     heads = ["without", *found.quantities, "seconds", "saved", "ends"]
     lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
-    whole = [f"{value:.6g}" for value in found.whole.values]
+    values = zip(found.quantities, found.whole.values, strict=True)
+    whole = [f"{0 if abs(value) <= found.rounding(name) else value:.6g}" for name, value in values]
     lines.append(_line([found.whole.name, *whole, f"{found.whole.seconds:.3g}", "", ""]))
     for row in found.rows:
         changes = [_share(change) for change in found.changes(row)]
@@ -29,10 +30,10 @@ def ablation_table(found: Ablation) -> list[str]:
 def ablation_verdict(found: Ablation) -> str:
     """Return in a sentence what matters, most first, and what changes nothing that is seen."""
     sizes = {row.name: np.abs(found.changes(row)) for row in found.rows}
-    most = {name: float(size.max()) for name, size in sizes.items() if np.isfinite(size).all()}
+    most = {name: float(size.max()) for name, size in sizes.items() if not np.isnan(size).any()}
     order = sorted(most, key=lambda name: -most[name])
     matter = [f"{row.name} ({row.verdict} without)" for row in found.rows if found.ends(row)]
-    matter += [f"{name} ({100 * most[name]:.3g} %)" for name in order if most[name] >= SEEN]
+    matter += [f"{name} ({_size(most[name])})" for name in order if most[name] >= SEEN]
     rest = [name for name in order if most[name] < SEEN]
     said = f"matters: {', '.join(matter) or 'none'}"
     return f"{said}; below {100 * SEEN:g} %: {', '.join(rest) or 'none'}"
@@ -51,5 +52,20 @@ def _line(cells: list[str]) -> str:
     return "| " + " | ".join(cells) + " |"
 
 
+def ablation_rounding(found: Ablation) -> str:
+    """Return in a sentence which quantities of the whole scene are rounding; empty if none is."""
+    values = zip(found.quantities, found.whole.values, strict=True)
+    pairs = [(name, abs(value), found.rounding(name)) for name, value in values]
+    none = [f"{name} (below {least:.2g})" for name, size, least in pairs if size <= least]
+    return f"rounding in the whole scene, shown as 0: {', '.join(none)}" if none else ""
+
+
+def _size(share: float) -> str:
+    return "from nothing" if np.isinf(share) else f"{100 * share:.3g} %"
+
+
 def _share(value: float) -> str:
-    return "" if value != value else f"{100 * value:+.3g} %"
+    """A share in words; what becomes something from nothing has none."""
+    if value != value:
+        return ""
+    return "from 0" if np.isinf(value) else f"{100 * value:+.3g} %" if value else "0"

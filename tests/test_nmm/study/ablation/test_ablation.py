@@ -9,7 +9,12 @@ from nmm.formulation import Formulation
 from nmm.model.called_for import CALLS
 from nmm.study.ablation.ablate import Ablation, AblationRow, ablate
 from nmm.study.ablation.omissions import TABLES, omissions
-from nmm.study.ablation.page import ablation_costs, ablation_table, ablation_verdict
+from nmm.study.ablation.page import (
+    ablation_costs,
+    ablation_rounding,
+    ablation_table,
+    ablation_verdict,
+)
 from nmm.study.cases import measure as measuring
 from nmm.study.cases.variants import StudyCase
 from nmm.verification import text
@@ -127,6 +132,27 @@ def test_free_fields_go_with_the_viscous_boundary_that_is_their_base():
     left = {one.name: set(one.scene) for one in omissions(tables, {})}
     assert left["viscous boundaries"] == {"inertia"}
     assert left["free fields"] == {"inertia", "viscous_boundaries"}
+
+
+@pytest.mark.parametrize(
+    ("whole", "without", "cell"),
+    [
+        ((3e-16, 1e-15), (-8e-16, 2e-16), "0"),  # a change of 370 %, of nothing
+        ((3e-16, 1e-15), (2e-3, 0.0), "from 0"),
+        ((3e-16, -4e-3), (5e-16, -2e-3), "0"),  # 5e-14 of the motion
+        ((2e-6, -4e-3), (3e-6, -4e-3), "+0.025 %"),
+    ],
+)
+def test_shares_of_rounding_are_shown_as_nothing(whole, without, cell):
+    """Coordinates of 4 m are rounded by 9e-16 m, displacements of solutions by some thousands."""
+    rows = (AblationRow("friction", without, 1.0, "converged"),)
+    first = AblationRow("the whole scene", whole, 1.0, "converged")
+    found = Ablation(("monitor:m:ux", "monitor:m:uy"), first, rows, 4.0)
+    assert ablation_table(found)[3].split(" | ")[1] == cell
+    told = abs(whole[0]) < 4e-12
+    assert ablation_table(found)[2].split(" | ")[1] == ("0" if told else f"{whole[0]:.6g}")
+    assert ("monitor:m:ux (below 4e-12)" in ablation_rounding(found)) == told
+    assert ("from nothing" in ablation_verdict(found)) == (cell == "from 0")
 
 
 def test_what_takes_long_is_told_of_runs_that_end_alike():
