@@ -14,6 +14,7 @@ from integration.arrays import Floats
 from nmm.contact.islands.warm_start import start_from
 from nmm.contact.iteration.alternation import Alternation
 from nmm.contact.iteration.apart import apart_in, solve_apart
+from nmm.contact.iteration.cells import FEW, from_cell_to_cell
 from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
 from nmm.contact.iteration.interior_point import Goal, InteriorPoint
 from nmm.contact.iteration.newton.semismooth_newton import polish
@@ -79,7 +80,15 @@ class _WaysToForces:
         if small and found.size <= self.tolerance:
             end = self.polished(found.increment)
             found = replace(found, increment=end.increment, size=end.size)
+        few = self.springs.problem.n_contacts <= FEW
+        if budget.interior and few and not found.size <= self.tolerance:
+            found = found.then(self.by_cells(found.increment))
         return found
+
+    def by_cells(self, increment: Floats) -> IterationResult:
+        """End of the line from an increment to the solution; the increment where it has none."""
+        end = from_cell_to_cell(self.springs, self.tools, increment)
+        return self.polished(increment if end is None else end)
 
     def shortly(self, increment: Floats, budget: IterationBudget) -> IterationResult:
         """End of Newton's method after as many solves as one factorisation of it costs.
