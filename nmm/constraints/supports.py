@@ -48,6 +48,7 @@ class Supports(TiedInterfaces):
     """All supports of a scene."""
 
     name = "supports"
+    _caution = ""
 
     def __init__(
         self,
@@ -83,7 +84,14 @@ class Supports(TiedInterfaces):
             found = laid_at_points(setup, laid_under_stress(setup, found))
         n_unknowns, in_time = setup.model.manifold.n_unknowns, scene.inertia is not None
         turns = turning(setup) if _lets_turn(setup.model, interfaces) else None
-        return cls(found, n_unknowns, setup.start, in_time, turns, setup.model)
+        made = cls(found, n_unknowns, setup.start, in_time, turns, setup.model)
+        made._caution = _sudden_starts(setup, interfaces)
+        return made
+
+    @property
+    def caution(self) -> str:
+        """See `Effect.caution`: ground that sets out at once."""
+        return self._caution
 
     def follow(self, change: "Change") -> "Supports":
         """Return the supports of the new model; those that are new hold the material as it is.
@@ -275,6 +283,17 @@ def _sharing(supports: Sequence[Imposition]) -> list[Imposition]:
     """Return supports whose pressures know of one another."""
     pairs = zip(supports, sharing([s.lift for s in supports]), strict=True)
     return [s if one is None else s.with_lift(one) for s, one in pairs]
+
+
+def _sudden_starts(setup: Setup, interfaces: Sequence[Interface]) -> str:
+    """Tell how records begin where the run does; empty if they begin at rest."""
+    pairs = list(zip(setup.scene.supports, interfaces, strict=True))
+    if setup.scene.inertia is None or setup.start.time > 0 or not any(s.motion for s, _ in pairs):
+        return ""
+    from nmm.effects.motion.sudden_starts import sudden_start
+
+    told = (sudden_start(setup, support, one.first) for support, one in pairs if support.motion)
+    return "; ".join(filter(None, told))
 
 
 def _interface(setup: Setup, support: "SupportTable", method: Method) -> Interface:

@@ -25,7 +25,7 @@ class InitialVelocity(Effect):
 
     def __init__(self, model: Model, motion: Floats) -> None:
         self._model = model
-        self._motion = motion
+        self.motion = motion
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -42,7 +42,7 @@ class InitialVelocity(Effect):
 
     def begin(self, state: State) -> State:
         """Return the state with the velocities set."""
-        return replace(state, velocity=self._model.manifold.rigid_modes @ self._motion.ravel())
+        return replace(state, velocity=self._model.manifold.rigid_modes @ self.motion.ravel())
 
 
 def from_middle(manifold: Manifold) -> Floats:
