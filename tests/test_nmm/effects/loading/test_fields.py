@@ -154,3 +154,72 @@ def test_wrong_fields_are_told_by_line(old, new, said):
 def test_a_field_that_is_infinite_somewhere_is_refused_with_the_place():
     with pytest.raises(SceneError, match=r"\[\[loads\]\] right: field is \[inf, 0.0\] at \(3"):
         nmm.run(nmm.parse_scene(plate(BENDING.format(field='["1/(x - 3)", "0"]'))))
+
+
+STRIP = """
+title = "strip load on a half plane"
+plane = "strain"
+[materials.soil]
+young_modulus = 1000.0
+poisson_ratio = 0.3
+[[blocks]]
+name = "soil"
+material = "soil"
+vertices = [[-4, -4], [4, -4], [4, 0], [-4, 0]]
+[[loads]]
+name = "strip"
+kind = "edge"
+segment = [[1, 0], [-1, 0]]
+traction = [0, -1]
+{cuts}
+[[supports]]
+name = "pin"
+point = [0, -4]
+fix = ["x", "y"]
+[[supports]]
+name = "roller"
+point = [-4, -4]
+fix = ["y"]
+[formulation.cover]
+type = "{cover}"
+size = 0.3
+degree = {degree}
+"""
+CUT = """
+[[loads]]
+name = "{name}"
+kind = "edge"
+segment = {segment}
+field = ["{x}", "{y}"]
+"""
+# Angles from the vertical to both ends of the strip |x| < 1 (Boussinesq 1885).
+LEFT, RIGHT = "atan2(x + 1, -y)", "atan2(x - 1, -y)"
+BOTH = f"(sin(2*{LEFT}) - sin(2*{RIGHT}))/2"
+SXX = f"-({LEFT} - {RIGHT} - {BOTH})/pi"
+SYY = f"-({LEFT} - {RIGHT} + {BOTH})/pi"
+SXY = f"(cos(2*{RIGHT}) - cos(2*{LEFT}))/2/pi"
+
+
+@pytest.mark.parametrize(("cover", "degree"), [("triangles", 1), ("bspline", 0)])
+def test_a_piece_of_a_half_plane_under_a_strip_load_has_the_stress_of_boussinesq(cover, degree):
+    cuts = [
+        ("right", [[4, -4], [4, 0]], SXX, SXY),
+        ("left", [[-4, 0], [-4, -4]], f"-({SXX})", f"-({SXY})"),
+        ("below", [[-4, -4], [4, -4]], f"-({SXY})", f"-({SYY})"),
+    ]
+    edges = "".join(CUT.format(name=n, segment=s, x=x, y=y) for n, s, x, y in cuts)
+    run = nmm.run(nmm.parse_scene(STRIP.format(cuts=edges, cover=cover, degree=degree)))
+    # Tractions of the half plane hold the piece in balance: nothing is left to the supports.
+    reactions = [h[-1] for name, h in run.history.items() if name.startswith("reaction:")]
+    assert np.abs(reactions).max() < 1e-4
+    x, y = run.manifold.elements.centroids.T
+    left, right = np.arctan2(x + 1, -y), np.arctan2(x - 1, -y)
+    mean, both = left - right, (np.sin(2 * left) - np.sin(2 * right)) / 2
+    shear = (np.cos(2 * right) - np.cos(2 * left)) / 2
+    exact = -np.stack([mean - both, mean + both, -shear], axis=1) / np.pi
+    # Below 0.7 m cells of 0.3 m are a seventh of the distance from the ends of the strip and more,
+    # and errors of order two.
+    deep = y < -0.7
+    assert np.abs(run.stress - exact)[deep].max() < 1e-2
+    middle = np.argmin(np.hypot(x, y + 1))
+    assert run.stress[middle, 1] == pytest.approx(exact[middle, 1], abs=3e-3)
