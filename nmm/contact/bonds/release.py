@@ -63,7 +63,9 @@ def released(
 ) -> tuple[ContactPoints, float]:
     """Return the contacts with bonds handed over to their laws, or broken, from now on.
 
-    And the energy (J) of the terms at the start of the step less that of the springs that follow.
+    And the energy (J) of the terms as they are taken over less that of the springs that follow:
+    firm springs tell nothing where the step begins, from which a coarse increment may stretch them
+    far.
 
     Parameters
     ----------
@@ -106,9 +108,10 @@ def released(
             "plastic_slip": history["plastic_slip"] + slid,
         },
     )
-    before = tied_energy(contacts, contacts, (penalty, shear_penalty))
-    springs_hold = normal * found.gap**2 / 2 + tangent * found.slip**2 / 2
-    after = np.where(left, _alone(contacts, found, (penalty, shear_penalty)), springs_hold)
+    firms, jumps = (penalty, shear_penalty), (loaded.gap - lag, loaded.slip - slid)
+    before = tied_energy(contacts, loaded, firms)
+    springs_hold = normal * jumps[0] ** 2 / 2 + tangent * jumps[1] ** 2 / 2
+    after = np.where(left, _alone(contacts, loaded, jumps, firms), springs_hold)
     kept = gone & held
     return found, float((before - after)[kept | beside(contacts, kept)].sum())
 
@@ -126,12 +129,16 @@ def _firm(pull: Floats, gap: Floats, penalty: Floats, least: Floats) -> Floats:
     return np.asarray(np.maximum(found, ABOVE_LEAST * least / penalty))
 
 
-def _alone(contacts: ContactPoints, found: ContactPoints, penalty: tuple[Floats, Floats]) -> Floats:
-    """Energy (m,) of terms, as contacts begin a step, once all of their jump counts (J)."""
+def _alone(
+    contacts: ContactPoints,
+    loaded: LoadedContacts,
+    jumps: tuple[Floats, Floats],
+    penalty: tuple[Floats, Floats],
+) -> Floats:
+    """Energy (m,) of terms under a load once all of their ``jumps`` (m) count (J)."""
     total = np.zeros(len(contacts))
-    rows = (contacts.normal_force, contacts.gap, found.gap)
-    others = (contacts.shear_force, contacts.slip, found.slip)
-    for (force, jump, anew), firm in zip((rows, others), penalty, strict=True):
+    rows = (loaded.normal_force, loaded.gap), (loaded.shear_force, loaded.slip)
+    for (force, jump), anew, firm in zip(rows, jumps, penalty, strict=True):
         total += anew * (force - firm * counted(contacts, jump) + firm * anew / 2)
     return total
 

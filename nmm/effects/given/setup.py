@@ -24,20 +24,35 @@ class StageLoads:
     ----------
     grows, leaves
         Names of loads that grow from zero in the stage, and of those that fade out.
+    driven
+        Names of supports that are new in the stage, which are driven from where they stand.
     released
         Share of the forces of excavated blocks that is released at its end; None leaves the shares
         of earlier stages as they are.
+    clock
+        Whether the scene has a clock, which stands while the load factor grows; else time grows
+        with it.
     """
 
     grows: frozenset[str] = frozenset()
     leaves: frozenset[str] = frozenset()
     released: float | None = None
+    driven: frozenset[str] = frozenset()
+    clock: bool = False
 
     def share(self, name: str, load_factor: float) -> float:
         """Return the share of a load at a load factor, which grows from 0 to 1 in the stage."""
         if name in self.grows:
             return load_factor
         return 1.0 - load_factor if name in self.leaves else 1.0
+
+    def left_behind(self, name: str, time: float, load_factor: float) -> tuple[float, float]:
+        """Return the share of a support's displacement at the stage's start that it still lacks.
+
+        And that instant (s).
+        """
+        begin = time if self.clock else time - load_factor
+        return (1.0 - load_factor if name in self.driven else 0.0), begin
 
 
 @dataclass(frozen=True)

@@ -29,8 +29,17 @@ def displacement_factor(setup: Setup, support: "SupportTable") -> Callable[[Inst
     """Return the factor of a prescribed displacement: its history, times any load factor.
 
     It is scaled if ``[loading]`` names it, or scales "all" in a scene without loads and the
-    displacement has no history.
+    displacement has no history. Supports that are new in a stage are driven from where they stand:
+    what their displacement is at its start grows with the load factor.
     """
+    acting, course = setup.acting, support.history
+    if acting is not None:
+
+        def driven(end: Instant) -> float:
+            lacks, begin = acting.left_behind(support.name, end.time, end.load_factor)
+            return factor_of(course, end.time) - lacks * factor_of(course, begin)
+
+        return driven
     loading, alone = setup.scene.loading, not setup.scene.loads and support.history is None
     scaled = loading is not None and (
         alone if loading.scaled == "all" else support.name in loading.scaled

@@ -100,6 +100,7 @@ def _resolved(
     present = np.ones(len(regions), dtype=bool)
     listed: dict[str, tuple[str, ...] | None] = dict.fromkeys(KINDS)
     members, before = None, frozenset[str]()
+    held = frozenset[str]()
     material = np.asarray(regions.material)
     for number, table in enumerate(scene.stages):  # a handful of stages
         place = _Place(scene, number, origin)
@@ -113,17 +114,18 @@ def _resolved(
         }
         _refuse_absent(table, there, place)
         named, names, faded = named_in(scene, table, listed, there, before)
+        holding = frozenset(one.name for one in named["supports"])
         yield Stage(
             table.name,
             scene.model_copy(update=named | keys_of_stage(scene, table, named, members, there)),
             _of_present(formulation, there),
             present,
             table.duration,
-            StageLoads(names - before, faded, table.release),
+            StageLoads(names - before, faded, table.release, holding - held, scene.in_time),
             table.reset_displacements,
             material,
         )
-        before = names
+        before, held = names, holding
 
 
 def _materials(table: "StageTable", before: Ints, regions: "Regions", place: "_Place") -> Ints:

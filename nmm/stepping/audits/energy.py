@@ -97,12 +97,26 @@ def _released(run: EndedRun) -> Findings:
     why, remedy = BENT
     if contact is not None:
         why, remedy = TORN if contact.broken_bonds else TOUCHED
+        yield _rubbed(ledger)
     yield AuditFinding(
         "energy_released",
         share,
         f"{share * ledger.throughput:.3g} J, {percent(share)} of the turnover, is the difference "
         f"between work and what is stored and lost{why}",
         remedy,
+    )
+
+
+def _rubbed(ledger: "Ledger") -> AuditFinding:
+    """Energy that friction and bonds gave in statics, where they can only take."""
+    given = ledger.friction_gift
+    share = given / ledger.throughput
+    return AuditFinding(
+        "energy_made_by_friction",
+        share,
+        f"{given:.3g} J, {percent(share)} of the turnover, came from friction and bonds, which can "
+        "only take: an increment of the load passed over what they took within it",
+        "take smaller increments ([loading] increment of the formulation)",
     )
 
 

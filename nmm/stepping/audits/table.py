@@ -40,6 +40,13 @@ THRESHOLDS: dict[str, Threshold] = {
         1e-2,
         "dynamics",
     ),
+    "energy_made_by_friction": Threshold(
+        "energy that friction and bonds gave in the increments in which they took less than "
+        "nothing, over the turnover",
+        1e-2,
+        0.1,
+        "statics with contact",
+    ),
     "energy_lost": Threshold(
         "energy that neither friction nor dampers took, over the turnover",
         0.1,

@@ -43,8 +43,7 @@ def settled(
         if not then.converged or then.motion > total.motion:
             break
         state, contacts = stepper.accept(then)
-        left, way = then.motion, total.increment + then.increment
-        total = replace(joined(total, then), increment=way)
+        left, total = then.motion, joined(total, then)
         if left <= SETTLED * total.motion + least:
             break
     if left > LAST_CORRECTION * total.motion + SEVERAL * least:

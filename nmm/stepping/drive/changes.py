@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from covers.change.parentage import same_elements
+from integration.arrays import Floats
 from nmm.assembly.state import State
 from nmm.frozen import with_parts
 from nmm.results.frame import Topology
@@ -72,16 +73,22 @@ def with_events(recorder: Recorder, at: AcceptedState, events: Asked, stage: str
     return AcceptedState(at.state, at.contacts, what, tuple(changes))
 
 
-def follow(recorder: Recorder, change: "Change", cause: str = "", reset: bool = False) -> None:
+def follow(
+    recorder: Recorder,
+    change: "Change",
+    cause: str = "",
+    reset: bool = False,
+    unheld: Floats | None = None,
+) -> None:
     """Record the new model from now on: monitors, elements, and what it did to the energies.
 
     ``cause`` is the effect that asked for it, none of a stage; ``reset`` lets displacements count
-    from here.
+    from here; ``unheld`` (n,) is what it leaves out of balance (N), where that is known.
     """
     recorder.zero = recorder.zero.followed(change, reset)
     recorder.monitors = monitors(change.setup, all_there=False, zero=recorder.zero.state)
     stepper, totals = recorder.stepper, recorder.totals
-    ledger = totals.ledger.changed(stepper.plan, stepper.model, change.state, cause)
+    ledger = totals.ledger.changed(stepper.plan, stepper.model, change.state, cause, unheld)
     recorder.totals = with_parts(totals, ledger=ledger, since=change.state)
     if not same_elements(change.old.manifold, change.new.manifold):
         recorder.sink.begin(topology(change.setup))

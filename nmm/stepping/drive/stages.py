@@ -6,9 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from integration.arrays import Floats
 from nmm.assembly.state import State
 from nmm.frozen import with_parts
 from nmm.geometry.geometry import Geometry
+from nmm.model.planning.out_of_balance import out_of_balance
 from nmm.model.staging.stage_geometry import begun_with
 from nmm.progress import Progress
 from nmm.stepping.drive.changes import difference, follow
@@ -103,12 +105,24 @@ def enter(
     with stepper.clock.phase("stages"):
         change = _entered(stepper, state, staged, integrator)
     before = recorder.ledger.change_energy
-    follow(recorder, change, reset=staged.stage.reset)
+    follow(recorder, change, reset=staged.stage.reset, unheld=_unheld(stepper, change))
     added = recorder.ledger.change_energy - before
     said = f"stage {staged.stage.name} at {state.time:.6g}: {difference(change)}, {added:.6g} J"
     changes = (*recorder.totals.changes, said)
     recorder.totals = with_parts(recorder.totals, taken=0, periods=0, changes=changes)
     return change.state
+
+
+def _unheld(stepper: Stepper, change: "Change") -> Floats | None:
+    """Return what blocks that left or came leave out of balance at rest (n,) in N.
+
+    None in motion, and where multipliers hold what moves: their forces are no part of the state.
+    """
+    plan, kinematics = stepper.plan, stepper.kinematics
+    driven = plan.supports is not None and plan.supports.multipliers and not plan.supports.steady
+    if plan.inertia is not None or kinematics.finite or driven:
+        return None
+    return out_of_balance(plan, change)
 
 
 def enter_again(

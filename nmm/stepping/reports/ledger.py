@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
+from integration.arrays import Floats
 from nmm.assembly.state import State
 from nmm.frozen import with_parts
 from nmm.stepping.reports.accounts import EnergyRise, EnergySources
@@ -29,8 +30,9 @@ class Ledger:
     work, friction_loss, material_loss
         Work of loads, weight and driven supports; what friction, dashpots and breaking bonds took;
         and what material points did, which flow or suffer damage.
-    friction_first
-        What friction and breaking bonds took in the first step.
+    friction_first, friction_gift
+        What friction and breaking bonds took in the first step; and what they gave in the steps in
+        which they took less than nothing.
     material_gift
         What material points gave in the steps in which they took less than nothing: stresses that
         turn about within a step do work on what flows at its end.
@@ -61,6 +63,9 @@ class Ledger:
         The same by the effect that asked for the changes; "" is a stage, or rest that was sought.
     settling
         Whether that step is the next one.
+    unheld
+        (n,) what the last change left out of balance (N), which nothing holds while that step is
+        solved; None where that is not known.
     cause
         What asked for the last change.
     lowest, last
@@ -70,6 +75,7 @@ class Ledger:
     work: float = 0.0
     friction_loss: float = 0.0
     friction_first: float = 0.0
+    friction_gift: float = 0.0
     material_loss: float = 0.0
     material_gift: float = 0.0
     damping_loss: Mapping[str, float] = field(default_factory=dict)
@@ -86,6 +92,7 @@ class Ledger:
     change_energy: float = 0.0
     changed_by: Mapping[str, float] = field(default_factory=dict)
     settling: bool = False
+    unheld: Floats | None = None
     cause: str = ""
     lowest: EnergySources = field(default_factory=EnergySources)
     last: EnergySources = field(default_factory=EnergySources)
@@ -112,6 +119,7 @@ class Ledger:
             work=self.worked(plan, before, attempt),
             friction_loss=self.friction_loss + loss,
             friction_first=self.friction_first if self.steps else loss,
+            friction_gift=self.friction_gift + max(-loss, 0.0),
             material_loss=self.material_loss + dissipated,
             material_gift=self.material_gift + max(-dissipated, 0.0),
             effect_loss={
@@ -122,13 +130,22 @@ class Ledger:
             stored_first=self._stored_first(plan, before, earlier),
             steps=self.steps + 1,
             settling=False,
+            unheld=None,
         )
         if self.settling and plan.inertia is None:
-            made = found._made - self._made
-            found = found._changed_by(made if anew else min(made, 0.0), self.cause)
+            made, shed = found._made - self._made, self._shed(attempt)
+            found = found._changed_by(made if anew else shed + min(made - shed, 0.0), self.cause)
         if attempt.booked is not None:
             found = found._lost_in_time(attempt.booked, earlier, loss)
         return found.weighed(after.time, audited=attempt.booked is not None)
+
+    def _shed(self, attempt: Attempt) -> float:
+        """Return what a step adds (J) whose start is out of balance: nothing is there to hold it.
+
+        Held by a force that fades evenly in the step, as loads change in it, it would add nothing:
+        that force would do half of its work, ``-r d / 2``.
+        """
+        return 0.0 if self.unheld is None else -float(self.unheld @ attempt.increment) / 2
 
     def worked(self, plan: "Plan", before: State, attempt: Attempt) -> float:
         """Return the work (J) of all steps and of an accepted one.
@@ -174,18 +191,23 @@ class Ledger:
         return replace(self, work=self.work + more)._changed_by(-more, cause)
 
     def changed(
-        self, plan: "Plan", model: "Model", state: State, cause: str | None = None
+        self,
+        plan: "Plan",
+        model: "Model",
+        state: State,
+        cause: str | None = None,
+        unheld: Floats | None = None,
     ) -> "Ledger":
         """Return the totals with a change of what is solved, on which ``state`` is now.
 
-        ``cause`` is the effect that asked for it, "" a stage, None what did so last.
+        ``cause`` is the effect that asked for it, "" a stage, None what did so last; ``unheld``
+        (n,) is what it leaves out of balance (N).
         """
         energies = stored(plan, model, state)
         added = sum(energies.values()) - self.in_store
         cause = self.cause if cause is None else cause
-        return replace(self, energies=energies, settling=True, cause=cause)._changed_by(
-            added, cause
-        )
+        given = {"energies": energies, "settling": True, "unheld": unheld, "cause": cause}
+        return with_parts(self, **given)._changed_by(added, cause)
 
     def _changed_by(self, added: float, cause: str) -> "Ledger":
         """Return the totals with energy (J) that changes added to what is stored."""
@@ -254,7 +276,9 @@ class Ledger:
         their end.
         """
         total, lost = self.in_store, self.dissipated
-        largest = max(self.throughput, abs(self.work), abs(total), abs(self.stored_first), lost)
+        largest = max(
+            self.throughput, abs(self.work), abs(total), abs(self.stored_first), abs(lost)
+        )
         supports = self.energies.get("support_energy", 0.0)
         now = EnergySources(
             self._made, self.given, -self.contact_loss, self.friction_loss, supports

@@ -108,7 +108,7 @@ def rounding(stepper: Stepper) -> float:
 
 
 def joined(first: Attempt, then: Attempt) -> Attempt:
-    """One attempt of a step and its correction."""
+    """One attempt of a step and its correction, with the way of both."""
     solved = then.solved
     if solved is not None and first.solved is not None:
         between = solved.between + first.solved.between
@@ -116,6 +116,7 @@ def joined(first: Attempt, then: Attempt) -> Attempt:
         solved = replace(solved, loss=loss, between=between, ways=ways)
     return replace(
         then,
+        increment=first.increment + then.increment,
         motion=max(first.motion, then.motion),
         passes=first.passes + then.passes,
         solved=solved,

@@ -209,6 +209,50 @@ cover = { degree = 2 }
 """
 
 
+HEAD = """
+[[supports]]
+name = "head"
+segment = [[0, 1], [1, 1]]
+fix = ["y"]
+displacement = [0, 1e-3]
+"""
+DRIVEN = """
+[[stages]]
+name = "rest"
+supports = ["floor"]
+[[stages]]
+name = "driven"
+supports = ["floor", "head"]
+"""
+MOVED = 'duration = "1 ms"\n'
+
+
+@pytest.mark.parametrize(
+    ("course", "later"),
+    [
+        ("", ""),
+        ("history = [[0, 1], [9, 1]]\n", ""),
+        ("history = [[0, 1], [9, 1]]\n", f'[inertia]\n[[stages]]\nname = "m"\n{MOVED}'),
+    ],
+    ids=["no history", "history", "clock that stands"],
+)
+def test_a_support_that_is_new_in_a_stage_is_driven_over_its_increments(course, later):
+    one = STACKED.replace("[contact]\n", "").replace("[gravity]\nacceleration = [0, -10]\n", "")
+    upper = one[one.index('[[blocks]]\nname = "upper"') : one.index("[interfaces.any]")]
+    text = one.replace(upper, "").replace("[interfaces.any]", later.partition("[[")[0])
+    text = text.replace('between = "any"\nfriction_angle = 0.5\n', "")
+    stages = DRIVEN + "".join(later.partition("[[")[1:])
+    found = run(text + HEAD + course + stages, MESHES["quads"], loading={"increment": 0.25})
+    history, rest = found.history, 4
+    driven = slice(rest, rest + 4)
+    share = np.array([0.25, 0.5, 0.75, 1.0])
+    # A bar of 1 m by 1 m without Poisson's ratio: E u, and E u^2 / 2 of work.
+    np.testing.assert_allclose(history["reaction:head:y"][driven], share * E * 1e-3, rtol=1e-6)
+    work = share**2 * E * 1e-3**2 / 2
+    np.testing.assert_allclose(history["external_work"][driven], work, rtol=1e-6)
+    assert abs(history["change_energy"][rest + 3]) < 1e-9 * work[-1]
+
+
 def test_a_spinning_body_flies_on_over_a_change_of_degree():
     cover, steps = {"type": "triangles", "size": 0.4, "degree": 1}, {"step": 1e-3}
     found = run(FLYING, cover, integrator={"type": "newmark", **steps})

@@ -74,6 +74,63 @@ def test_a_softening_bond_takes_its_fracture_energy_whatever_the_increment(incre
     assert run.history["friction_loss"][-1] == pytest.approx(100.0, rel=1e-5)
 
 
+SHEARED = """
+plane = "stress"
+[contact]
+[interfaces.any]
+between = "any"
+law = "linear_softening"
+friction_angle = 0.5
+cohesion = 2e5
+tensile_strength = 2e5
+fracture_energy = 100
+bonded = true
+[[supports]]
+name = "floor"
+segment = [[0, 0], [1, 0]]
+fix = ["x", "y"]
+[[supports]]
+name = "head"
+segment = [[0, 2], [1, 2]]
+fix = ["x", "y"]
+displacement = [5e-3, 2e-4]
+[[stages]]
+name = "rest"
+supports = ["floor"]
+[[stages]]
+name = "drive"
+supports = ["floor", "head"]
+"""
+
+
+def sheared():
+    """Two squares on cells whose bond is sheared off in the one increment of a stage."""
+    tables = [
+        text.material("rock", 1e9, 0.0),
+        text.box("lower", (0, 0), (1, 1)),
+        text.box("upper", (0, 1), (1, 1)),
+    ]
+    cover = {"type": "quads", "size": 0.5, "degree": 1}
+    scene = nmm.parse_scene(text.scene(SHEARED, tables))
+    return nmm.run(scene, nmm.Formulation.model_validate({"cover": cover}))
+
+
+def test_a_bond_that_is_sheared_off_in_one_increment_takes_energy_and_gives_none():
+    run = sheared()
+    # What opens and what slides it take 100 J each at most, all of the slip under no pressure.
+    assert 100.0 < run.history["friction_loss"][-1] < 200.0
+    # Work is of forces at both ends of the increment, between which the bond bore all it did.
+    assert ["energy_released" in one for one in run.summary.warnings] == [True]
+
+
+def test_a_loss_below_nothing_is_told(monkeypatch):
+    path = "nmm.contact.laws.losses.ContactLosses.energy"
+    monkeypatch.setattr(path, lambda self, static: -1e3 * len(self.start))
+    run = sheared()
+    assert run.summary.status == "unbalanced"
+    assert any("audit energy_made_by_friction" in one for one in run.summary.warnings)
+
+
 def test_a_gap_that_closes_within_an_increment_is_told():
     """Two bars of 1 GN/m, 0.1 mm apart: one is pulled against the other by 1 MN at once.
 
