@@ -12,6 +12,7 @@ from math import atan, tan
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
+from nmm.errors import NmmError
 from nmm.progress import Progress
 from nmm.results.safety import Safety
 from nmm.results.sink import MemorySink
@@ -86,11 +87,24 @@ class _Factors:
         return found
 
     def _solved(self, factor: float) -> tuple[str, str]:
-        made = prepare(_unstored(weakened(self.scene, factor)), self.formulation)
+        made = self._prepared(factor)
         memory = MemorySink()
         state = replace(made, at_once=self.at_once).run([memory], lambda share, text: None)
         self._stands[factor] = made.stepper, state
         return memory.summary.status, memory.summary.sentence
+
+    def _prepared(self, factor: float) -> Simulation:
+        try:
+            return prepare(_unstored(weakened(self.scene, factor)), self.formulation)
+        except NmmError as fault:
+            if factor == 1.0:
+                raise
+            # Its numbers are none of the file: without the factor nobody finds them there.
+            raise NmmError(
+                f"strength_reduction: strengths over {factor:.6g} are refused, their numbers "
+                f"divided: {fault}; or keep such factors out by [strength_reduction] lowest and "
+                "highest"
+            ) from fault
 
     def _bound(self, factor: float, highest: float, width: float) -> float | None:
         """See `FactorTried.bound`."""

@@ -125,6 +125,56 @@ def test_damping_by_stiffness_shortens_the_stable_step():
     assert steps[1] == pytest.approx(steps[0] * (math.sqrt(1 + ratio**2) - ratio), rel=1e-3)
 
 
+RIGID = """
+plane = "strain"
+duration = {duration}
+[materials.m]
+density = 2000.0
+young_modulus = 1e8
+poisson_ratio = 0.2
+[[blocks]]
+name = "b"
+material = "m"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[inertia]
+[[initial_velocities]]
+block = "b"
+velocity = [0.0, 1.0]
+[formulation.cover]
+functions = "rigid"
+[formulation.integrator]
+type = "central_differences"
+step = 1e-4
+"""
+
+
+@pytest.mark.parametrize(
+    "damper",
+    [
+        "[damping]\nmass = 1000.0",
+        '[[viscous_boundaries]]\nname = "below"\nsegment = [[0, 0], [1, 0]]\n'
+        "density = 2000.0\np_velocity = 1000.0\ns_velocity = 1e-3",
+    ],
+    ids=["of mass", "below, that turning meets less than lifting does"],
+)
+def test_a_rigid_block_that_dampers_alone_slow_takes_steps_up_to_two_masses_over_their_rate(damper):
+    # m = 2000 kg and c = 2e6 N s/m: a step leaves 1 - c dt / m of the velocity.
+    scene = nmm.parse_scene(RIGID.format(duration=0.002) + damper)
+    made = prepare(scene, scene.formulation)
+    assert longest_step(made.stepper, made.start) == pytest.approx(2e-3, rel=1e-6)
+    run = nmm.run(scene)
+    assert run.summary.status == "converged", run.summary.sentence
+    # exp(-2 t c / m) of 1 kJ, by steps of a tenth of the time of decay.
+    left = run.history["kinetic_energy"][-1] / 1000.0
+    assert math.log(left) == pytest.approx(-4.0, rel=0.1)
+
+
+def test_a_rigid_block_in_free_flight_takes_any_step():
+    scene = nmm.parse_scene(RIGID.format(duration=0.002))
+    made = prepare(scene, scene.formulation)
+    assert longest_step(made.stepper, made.start) == math.inf
+
+
 def test_contact_is_refused_with_what_to_use():
     more = "[contact]\n[interfaces.dry]\nfriction_angle = 0.5"
     with pytest.raises(FormulationError, match=r'"central_differences" with \[contact\]'):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import nmm
-from nmm.errors import SceneError
+from nmm.errors import NmmError, SceneError
 from nmm.model.build import material_law
 from nmm.scene import parse_scene
 from nmm.scene.tables.strength_reduction import StrengthReductionTable
@@ -148,3 +148,16 @@ def test_friction_that_is_left_is_reduced_with_that_at_first_and_dilation_stays_
     assert found.dilation_angle == pytest.approx(np.arctan(first), rel=1e-14)
     assert found.residual_dilation_angle == pytest.approx(np.arctan(last), rel=1e-14)
     assert material_law(found).fall == pytest.approx(0.8)
+
+
+def test_a_factor_whose_strengths_are_refused_is_named():
+    """Energies are divided, the apex of the cone is not: cells may grow too large on the way."""
+    text = (
+        'plane = "strain"\n[materials.m]\nlaw = "drucker_prager"\nyoung_modulus = 1e8\n'
+        "poisson_ratio = 0.3\ncohesion = 1e4\nfriction_angle = 0.8\ndensity = 2000.0\n"
+        "softening_energy = 0.6\n[gravity]\n[strength_reduction]\nlowest = 1.0\n"
+        '[[supports]]\nname = "s"\nsegment = [[0, 0], [1, 0]]\nfix = ["x", "y"]\n'
+        '[[blocks]]\nname = "b"\nmaterial = "m"\nvertices = [[0, 0], [1, 0], [1, 1], [0, 1]]\n'
+    )
+    with pytest.raises(NmmError, match=r"strengths over 2 are refused.*softening_energy: 0\.3: "):
+        nmm.run(nmm.parse_scene(text))
