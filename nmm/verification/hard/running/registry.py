@@ -30,6 +30,7 @@ HARD = Registry[type[HardClass]](
         "events": f"{_HOME}.events:Events",
         "solids": f"{_HOME}.random_solids:Solids",
         "scenes": f"{_HOME}.scenes.scenes:Scenes",
+        "keys": f"{_HOME}.seldom.keys:SeldomKeys",
         "features": f"{_HOME}.features:Features",
     },
 )

@@ -45,7 +45,7 @@ class Scenes(HardClass):
         """Yield the scene of a seed."""
         random = np.random.default_rng([seed, 97])
         kind = str(random.choice(list(KINDS), p=list(KINDS.values())))
-        scene, parts = _flight(random) if kind == "flight" else _standing(random, kind)
+        scene, parts = _flight(random) if kind == "flight" else standing(random, kind)[:2]
         seen = str(random.choice(list(ways(scene))))
         label = f"seed {seed}, {kind}, {', '.join(parts.values())}, {seen}"
         yield HardCase(label, scene, partial(sound, way=seen), {**parts, "kind": kind})
@@ -62,7 +62,8 @@ def _flight(random: np.random.Generator) -> tuple[Document, dict[str, str]]:
     return formulated(scene, site, meshed=False)
 
 
-def _standing(random: np.random.Generator, kind: str) -> tuple[Document, dict[str, str]]:
+def standing(random: np.random.Generator, kind: str) -> tuple[Document, dict[str, str], Site]:
+    """Return a scene of a wall, the parts that it names, and the measures of its wall."""
     scene, height = bodies.wall(random)
     modulus = float(10.0 ** random.uniform(7, 10.5))
     step = float(height * (DENSITY / modulus) ** 0.5 * 10.0 ** random.uniform(-1.5, 0.5))
@@ -83,7 +84,8 @@ def _standing(random: np.random.Generator, kind: str) -> tuple[Document, dict[st
         scene = merged(scene, add(site))
     if site.kind == "stages":
         scene = merged(scene, staged(scene, site))
-    return formulated(scene, site, meshed or "heat" in scene or "seepage" in scene)
+    fielded = "heat" in scene or "seepage" in scene
+    return *formulated(scene, site, meshed or fielded), site
 
 
 def _at(corner: list[float], scene: Document) -> str:

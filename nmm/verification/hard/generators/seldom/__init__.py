@@ -1,0 +1,1 @@
+"""Keys that few scenes have, each added to random scenes that are otherwise whole."""
