@@ -219,7 +219,11 @@ def test_dampers_are_symmetric_and_take_energy(cover):
 
 UNNAMED = [
     "nmm.effects.damping.",
-    "nmm.effects.loading.",
+    "nmm.effects.loading.fields",
+    "nmm.effects.loading.field_loads",
+    "nmm.effects.loading.moving_loads",
+    "nmm.effects.loading.pressures",
+    "nmm.effects.loading.surface_pressure",
     "nmm.effects.motion.record",
     "nmm.effects.motion.viscous_boundaries",
     "nmm.effects.motion.free_fields",
