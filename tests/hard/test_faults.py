@@ -304,6 +304,7 @@ RACE = """
 import os, sys, time
 from nmm.errors import StorageError
 from nmm.results import RunFolder
+time.sleep(max(0.0, float(sys.argv[2]) - time.time() - 0.01))
 while time.time() < float(sys.argv[2]):
     pass
 try:

@@ -14,14 +14,20 @@ from nmm.verification.hard.spoilt.sound_files import minimal
 LENGTH, FORCE = 1e3, 7.0
 
 
-@pytest.mark.parametrize("unit", [unit for unit in COMMON if unit not in ("1", "rad", "rad/s")])
-def test_the_factor_of_a_unit_is_that_of_its_dimensions(unit):
-    """In units of mm and 1/7 N, and seconds and kelvins: numbers by pint."""
+@pytest.fixture(scope="module")
+def registry():
+    """Units of pint, a millimetre and a seventh of a newton among them."""
     import pint
 
-    registry = pint.UnitRegistry()
-    registry.define("long = 1e-3 meter")
-    registry.define("strong = newton / 7")
+    found = pint.UnitRegistry()
+    found.define("long = 1e-3 meter")
+    found.define("strong = newton / 7")
+    return found
+
+
+@pytest.mark.parametrize("unit", [unit for unit in COMMON if unit not in ("1", "rad", "rad/s")])
+def test_the_factor_of_a_unit_is_that_of_its_dimensions(unit, registry):
+    """In units of mm and 1/7 N, and seconds and kelvins: numbers by pint."""
     bases = {"[length]": "long", "[mass]": "strong * second**2 / long"}
     bases |= {"[time]": "second", "[temperature]": "kelvin"}
     quantity = registry.Quantity(1.0, unit)

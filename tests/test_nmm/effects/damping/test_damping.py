@@ -193,9 +193,14 @@ def test_ground_that_moves_drags_masses_at_points_along(load):
     assert run.summary.status == "converged"
 
 
+@pytest.fixture(scope="module")
+def plain():
+    """The swing without damping."""
+    return swing("", 0.5)[0]
+
+
 @pytest.mark.parametrize("damping", ["mass = 0", "stiffness = 0", "local = 0"])
-def test_damping_of_nothing_changes_nothing(damping):
-    plain, _ = swing("", 0.5)
+def test_damping_of_nothing_changes_nothing(damping, plain):
     damped, _ = swing(f"[damping]\n{damping}", 0.5)
     assert np.abs(damped - plain).max() < 1e-12
 
