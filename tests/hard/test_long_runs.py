@@ -27,9 +27,11 @@ def flight(steps, formulation):
 @pytest.mark.parametrize(
     ("steps", "formulation"),
     [
-        (10_000, "dda"),
-        (10_000, "degree 2"),
-        (10_000, "newmark"),
+        *((1_000, name) for name in ("dda", "degree 2", "newmark")),
+        *(
+            pytest.param(10_000, name, marks=pytest.mark.slow)
+            for name in ("dda", "degree 2", "newmark")
+        ),
         pytest.param(100_000, "dda", marks=pytest.mark.slow),
     ],
 )
@@ -49,10 +51,13 @@ def test_a_body_in_free_flight_neither_drifts_nor_gains(steps, formulation):
     assert found.state.frames.angle[0] == pytest.approx(turned, rel=1e-9)
     kinetic = found.history["kinetic_energy"]
     assert kinetic[-1] <= kinetic[0] * (1 + rounding / 10 * steps)
-    # 37 turns in a hundred seconds: the long side lies along x again. Shi's rule hardly damps a
-    # sawtooth of 4 / Omega^2, 1e-4, and Newmark's not even the breathing: 2 %.
-    tolerance = 0.05 if formulation == "newmark" else 1e-4
-    assert found.stress[0, :2] == pytest.approx(PULL, rel=tolerance)
+    # Shi's rule hardly damps a sawtooth of 4 / Omega^2 = rho a^2 / (3 E dt^2), 6.7e-4 along the
+    # long side and 1.7e-4 along the short one, and Newmark's not even the breathing: 2 %.
+    tolerance = 0.05 if formulation == "newmark" else 1e-4 if steps > 1_000 else 7e-4
+    # 37 turns in a hundred seconds: the long side lies along x again, but not after ten seconds.
+    c2 = np.cos(turned) ** 2
+    pull = c2 * PULL + (1 - c2) * PULL[::-1]
+    assert found.stress[0, :2] == pytest.approx(pull, rel=tolerance)
 
 
 @pytest.mark.slow
@@ -147,7 +152,7 @@ def test_a_block_at_rest_does_not_creep_by_its_own_swing(steps, integrator):
     assert np.ptp(slid[100:]) < 1e-7
 
 
-@pytest.mark.parametrize("steps", [3_000, pytest.param(100_000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("steps", [1_000, pytest.param(100_000, marks=pytest.mark.slow)])
 def test_a_plate_that_spins_and_vibrates_keeps_its_energy_under_newmark(steps):
     """Its spin pays for the work that centrifugal forces do on its stretch.
 

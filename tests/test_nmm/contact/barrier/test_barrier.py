@@ -22,11 +22,14 @@ def resultants(problem: StepProblem, normal: np.ndarray, shear: np.ndarray) -> n
     return np.asarray(problem.normal_rows.T @ normal + problem.tangent_rows.T @ shear)
 
 
-def test_every_step_of_a_pile_converges_within_its_walls(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("blocks", [40, pytest.param(100, marks=pytest.mark.slow)])
+def test_every_step_of_a_pile_converges_within_its_walls(
+    blocks: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.syspath_prepend(BENCHMARKS)
     from block_scenes import Motion, pile
 
-    motion, memory, solver = Motion(pile(100, 10.0)), Memory(), make_solver()
+    motion, memory, solver = Motion(pile(blocks, 10.0)), Memory(), make_solver()
     problem = motion.problem
     for _ in range(3):
         answer = make_enforcement("barrier").solve(problem, solver, memory)

@@ -91,6 +91,7 @@ def test_meshes_are_sheared_through_the_peak_of_a_joint_on_terms() -> None:
     assert not run.summary.warnings
 
 
+@pytest.mark.slow  # half a minute: the 42 points are what it needs
 def test_a_path_that_turns_back_by_small_steps_shows_no_limit_point() -> None:
     # Among 42 points that one after the other begin to soften each has an answer in unloading:
     # "a limit point was passed" at 308 kN, 12 % below the load, "down to" -307 kN.
