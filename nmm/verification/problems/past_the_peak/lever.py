@@ -31,6 +31,7 @@ class Lever(SceneCase):
     name = "PA5"
     title = "A lever breaks its links one after the other"
     source = "P l = k turn sum(x^2) of the links left; the farthest breaks first"
+    places = PLACES
 
     def scene(self) -> str:
         """Return a rigid lever, hinged at its left end, on columns that are bonded to it."""
@@ -41,7 +42,7 @@ class Lever(SceneCase):
             text.pulled_edge("push", [[ARM - 0.01, 1.2], [ARM + 0.01, 1.2]], [0, 50.0]),
             text.monitor("tip", (ARM, 1.2), "lever"),
         ]
-        for number, place in enumerate(PLACES):
+        for number, place in enumerate(self.places):
             ends = (place - WIDTH / 2, 0), (place + WIDTH / 2, 1)
             more = {"cohesion": 1e9, "bonded": True, "tensile_strength": STRENGTH / WIDTH}
             tables += [
