@@ -16,13 +16,14 @@ from covers.approximation.local_coordinates import (
     fitted_covers,
     part_frames,
 )
+from covers.approximation.patterns import Pattern, patterns
 from covers.approximation.singular.carriers import Carriers, carriers, no_carriers
 from covers.approximation.singular.enriched_fields import EnrichedFields
 from covers.approximation.singular.enrichment import Enrichment
 from covers.approximation.singular.rules import singular_rule
 from covers.approximation.whitening import LocalFrames
 from covers.cutting.cut_cells import CutCells
-from covers.local_functions.polynomials import Kinds, LocalFunctions
+from covers.local_functions.polynomials import Kinds
 from covers.mathematical.base import Cover
 from covers.small_matrices import inverses
 from integration.arrays import Bools, Floats, Ints
@@ -30,36 +31,6 @@ from integration.monomials import affine
 from integration.polygons import Polygons, diameters
 from integration.ragged import within
 from integration.rules import polygon_rule
-
-
-@dataclass(frozen=True)
-class Pattern:
-    """Elements whose covers have the same local functions, in the same order.
-
-    Attributes
-    ----------
-    elements
-        (n,) numbers in the cut.
-    slots
-        (n, k) positions of their active covers among those of their cell.
-    covers
-        (n, k) the active physical covers.
-    functions
-        Local functions of the k covers.
-    carried
-        (k,) number of singular points whose functions each cover carries too.
-    """
-
-    elements: Ints
-    slots: Ints
-    covers: Ints
-    functions: list[LocalFunctions]
-    carried: Ints
-
-    @property
-    def degree(self) -> int:
-        """Highest degree of the local functions."""
-        return max(item.degree for item in self.functions)
 
 
 @dataclass(frozen=True)
@@ -114,32 +85,13 @@ class Grouping:
 
     def groups(self) -> Iterator[ElementGroup]:
         """Yield a group for each pattern of local functions among the covers of elements."""
-        for pattern in self._patterns():
+        for pattern in patterns(self.cut, self.kinds, self.carriers):
             if pattern.carried.any():
                 yield self._enriched(pattern)
             elif self.cover.weight_degree is None:
                 yield self._rational(pattern)
             else:
                 yield self._polynomial(pattern)
-
-    def _patterns(self) -> Iterator[Pattern]:
-        covers, most = self.cut.covers, self.carriers.points.shape[1] + 1
-        none = most * len(self.kinds.functions)
-        code = most * self.kinds.which + self.carriers.counts
-        codes = np.where(covers >= 0, code[covers], none)
-        # Enriched slots first, then by functions, inactive ones last, in a stable order.
-        rank = np.where(codes == none, none, codes - none * (codes % most))
-        slots = np.argsort(rank, axis=1, kind="stable")
-        for elements, row in _equal_rows(np.take_along_axis(codes, slots, axis=1)):
-            active = row[row < none]
-            places = slots[elements, : len(active)]
-            yield Pattern(
-                elements,
-                places,
-                np.take_along_axis(covers[elements], places, axis=1),
-                [self.kinds.functions[kind] for kind in active // most],
-                active % most,
-            )
 
     def _polynomial(self, pattern: Pattern) -> ElementGroup:
         shapes = self._shapes(pattern)
@@ -242,17 +194,6 @@ class Grouping:
 
     def _polygons(self, elements: Ints) -> Polygons:
         return self.cut.elements.take(elements)
-
-
-def _equal_rows(codes: Ints) -> Iterator[tuple[Ints, Ints]]:
-    """Yield the numbers of equal rows, and the row, for each distinct row."""
-    if (codes == codes[0]).all():
-        distinct, which = codes[:1], np.zeros(len(codes), dtype=np.int64)
-    else:
-        distinct, which = np.unique(codes, axis=0, return_inverse=True)
-        which = which.ravel()
-    for number, row in enumerate(distinct):  # a handful of patterns
-        yield np.flatnonzero(which == number), row
 
 
 def _with_vectors(base: Floats | None, unknowns: int, vectors: int) -> Floats:

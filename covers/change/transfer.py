@@ -16,6 +16,7 @@ import numpy as np
 from covers.approximation.manifold import Manifold
 from covers.approximation.rows import Rows
 from covers.approximation.singular.rules import graded_rule
+from covers.change.field_rows import FieldRows
 from covers.change.normal_equations import NormalEquations
 from covers.change.parentage import Parentage
 from integration.arrays import Bools, Floats, Ints
@@ -148,10 +149,10 @@ class Transfer:
         return np.asarray(np.stack(sums, axis=1).reshape(n, *values.shape[1:]), dtype=np.float64)
 
     @cached_property
-    def _fields(self) -> "tuple[_Field, _Field]":
+    def _fields(self) -> tuple[FieldRows, FieldRows]:
         """Rows of both manifolds at the points: functions and slopes are found together."""
         sides = zip((self.kin.old, self.kin.new), self.elements, strict=True)
-        old, new = (_Field.of(*manifold.both_rows(at, self.points)) for manifold, at in sides)
+        old, new = (FieldRows.of(*manifold.both_rows(at, self.points)) for manifold, at in sides)
         return old, new
 
     @cached_property
@@ -174,50 +175,6 @@ class Transfer:
         weighed = csr_array((self._mass @ modes).T)
         motion = by_body(csr_array(weighed @ modes), weighed @ unknowns)
         return np.asarray((unknowns - modes @ motion)[self._free])
-
-
-@dataclass(frozen=True)
-class _Field:
-    """Rows (Q, 3, 2, L) of a field and its slopes along x and y over unknowns (Q, L)."""
-
-    unknowns: Ints
-    values: Floats
-
-    @classmethod
-    def of(cls, unknowns: Ints, values: Floats) -> "_Field":
-        """Return what `Manifold.both_rows` found; without a point it knows no components."""
-        return cls(unknowns, values.reshape(len(unknowns), 3, 2, unknowns.shape[1]))
-
-    @property
-    def rows(self) -> Rows:
-        """Rows of the displacement."""
-        return Rows(self.unknowns, self.values[:, 0])
-
-    @property
-    def strains(self) -> "_StrainRows":
-        """Rows of the strains (xx, yy, 2 xy)."""
-        g = self.values
-        values = np.stack([g[:, 1, 0], g[:, 2, 1], g[:, 2, 0] + g[:, 1, 1]], axis=1)
-        return _StrainRows(self.unknowns, values)
-
-
-@dataclass(frozen=True)
-class _StrainRows:
-    """Rows (Q, 3, L) over unknowns (Q, L)."""
-
-    unknowns: Ints
-    values: Floats
-
-    def times(self, matrices: Floats) -> "_StrainRows":
-        """Return the rows multiplied by matrices (Q, 3, 3)."""
-        return _StrainRows(self.unknowns, np.matmul(matrices, self.values))
-
-    def matrix(self, n_unknowns: int) -> csr_array:
-        """Return the sparse matrix (3 Q, n)."""
-        q, rows, length = self.values.shape
-        columns = np.repeat(self.unknowns[:, None, :], rows, axis=1).ravel()
-        offsets = np.arange(rows * q + 1) * length
-        return csr_array((self.values.ravel(), columns, offsets), shape=(rows * q, n_unknowns))
 
 
 def _sharp_rule(kin: Parentage, parts: Ints, degree: int) -> PointRule:
