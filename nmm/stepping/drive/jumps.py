@@ -54,7 +54,7 @@ def jumped(
     said, why = f"after {rest.steps} steps of relaxation", rest.sentence
     if rest.at_rest:
         state = with_parts(rest.state, time=time, load_factor=at.state.load_factor)
-        recorder.brought_to(state)
+        recorder.brought_to(state, end)
         found = _held(stepper, state, end)
         if found.attempt.converged:
             return JumpToRest(state, found, f"loose blocks jumped to rest {said}")

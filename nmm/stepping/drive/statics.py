@@ -175,7 +175,7 @@ class _Raising:
             self.stepper.restore(start)
             return no_rest(rest)
         state = replace(rest.state, time=at.state.time, load_factor=0.0)
-        self.recorder.brought_to(state)
+        self.recorder.brought_to(state, end)
         return replace(at, state=state, rest=Rest(rest.steps, rest.way, rest.lost))
 
     def _ended(self, at: UnderLoad, trial: Trial) -> RunVerdict:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from integration.arrays import Floats
 from nmm.assembly.state import State
+from nmm.effects.base import Instant
 from nmm.frozen import with_parts
 from nmm.stepping.reports.accounts import EnergyRise, EnergySources
 from nmm.stepping.reports.energies import standing, stored, untouched
@@ -66,6 +67,9 @@ class Ledger:
     unheld
         (n,) what the last change left out of balance (N), which nothing holds while that step is
         solved; None where that is not known.
+    rested
+        Instant under whose loads and displacements loose blocks were last brought to rest, until
+        the next step is solved; None: it begins under those of its start.
     cause
         What asked for the last change.
     lowest, last
@@ -93,6 +97,7 @@ class Ledger:
     changed_by: Mapping[str, float] = field(default_factory=dict)
     settling: bool = False
     unheld: Floats | None = None
+    rested: Instant | None = None
     cause: str = ""
     lowest: EnergySources = field(default_factory=EnergySources)
     last: EnergySources = field(default_factory=EnergySources)
@@ -131,6 +136,7 @@ class Ledger:
             steps=self.steps + 1,
             settling=False,
             unheld=None,
+            rested=None,
         )
         if self.settling and plan.inertia is None:
             made, shed = found._made - self._made, self._shed(attempt)
@@ -154,7 +160,7 @@ class Ledger:
         balance, and has no mean load.
         """
         work, after = self.work, attempt.state
-        grows = self._grows(plan)
+        grows, before = self._grows(plan), _under(self.rested, before)
         if grows:
             work += plan.first_work(before, after)
         work += plan.work(before, after)
@@ -197,17 +203,19 @@ class Ledger:
         state: State,
         cause: str | None = None,
         unheld: Floats | None = None,
+        rested: Instant | None = None,
     ) -> "Ledger":
         """Return the totals with a change of what is solved, on which ``state`` is now.
 
         ``cause`` is the effect that asked for it, "" a stage, None what did so last; ``unheld``
-        (n,) is what it leaves out of balance (N).
+        (n,) is what it leaves out of balance (N); ``rested`` is the instant under which ``state``
+        was brought to rest, whose driven supports stand where that has driven them.
         """
-        energies = stored(plan, model, state)
+        energies = stored(plan, model, _under(rested, state))
         added = sum(energies.values()) - self.in_store
         cause = self.cause if cause is None else cause
         given = {"energies": energies, "settling": True, "unheld": unheld, "cause": cause}
-        return with_parts(self, **given)._changed_by(added, cause)
+        return with_parts(self, **given, rested=rested)._changed_by(added, cause)
 
     def _changed_by(self, added: float, cause: str) -> "Ledger":
         """Return the totals with energy (J) that changes added to what is stored."""
@@ -301,3 +309,10 @@ class Ledger:
         if now.made - before.made > known.energy:
             return EnergyRise(now.since(before), self.steps, time)
         return known
+
+
+def _under(rested: Instant | None, state: State) -> State:
+    """Return ``state`` under what acts when it ``rested``, which the load grows to anew."""
+    if rested is None:
+        return state
+    return replace(state, time=rested.time, load_factor=rested.load_factor)

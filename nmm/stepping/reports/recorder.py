@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from nmm.assembly.state import State
+from nmm.effects.base import Instant
 from nmm.effects.view import View
 from nmm.frozen import with_parts
 from nmm.results.sink import RESETS, Sink
@@ -156,13 +157,13 @@ class Recorder:
         """Return when (s) the next frame is requested; infinite where no time counts."""
         return self.choice.next(self.choice.periods(time))
 
-    def brought_to(self, state: State) -> None:
-        """Book a state to which loose blocks were brought besides the steps of the run."""
+    def brought_to(self, state: State, end: Instant) -> None:
+        """Book a state to which loose blocks were brought under ``end`` besides the run's steps."""
         ledger, contact = self.ledger, self.stepper.plan.contact
         if not ledger.steps and contact is not None:
             contact.stands(state)
         if ledger.steps:
-            ledger = ledger.changed(self.stepper.plan, self.stepper.model, state)
+            ledger = ledger.changed(self.stepper.plan, self.stepper.model, state, rested=end)
             self.totals = with_parts(self.totals, ledger=ledger)
 
     def offer(self, state: State, stage: str, contacts: "ContactPoints | None") -> None:
