@@ -90,7 +90,7 @@ class Supports(TiedInterfaces):
 
     @property
     def caution(self) -> str:
-        """See `Effect.caution`: ground that sets out at once."""
+        """See `Effect.caution`: ground that sets out or jumps at once."""
         return self._caution
 
     def follow(self, change: "Change") -> "Supports":
@@ -286,7 +286,7 @@ def _sharing(supports: Sequence[Imposition]) -> list[Imposition]:
 
 
 def _sudden_starts(setup: Setup, interfaces: Sequence[Interface]) -> str:
-    """Tell how records begin where the run does; empty if they begin at rest."""
+    """Tell jumps of records, from where the run begins; empty without any."""
     pairs = list(zip(setup.scene.supports, interfaces, strict=True))
     if setup.scene.inertia is None or setup.start.time > 0 or not any(s.motion for s, _ in pairs):
         return ""

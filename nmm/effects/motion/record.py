@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal, Self
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Bools, Floats
 
 if TYPE_CHECKING:
     from nmm.scene.model import Scene
@@ -65,14 +65,19 @@ class GroundMotion:
 
     @cached_property
     def shortest_step(self) -> float:
-        """Shortest interval between two samples (s), those of a jump excepted.
+        """Shortest interval between two samples (s), those of a jump excepted."""
+        steps = np.diff(self.times)
+        return float(steps.min() if len(steps) < 2 else steps[~self.jumps].min())
+
+    @property
+    def jumps(self) -> Bools:
+        """Which intervals (k - 1,) between samples are jumps.
 
         The samples of a jump are `JUMP` times as near to each other as to their neighbours.
         """
         steps = np.diff(self.times)
         beside = np.pad(steps, 1, constant_values=np.inf)
-        jumps = JUMP * steps < np.minimum(beside[:-2], beside[2:])
-        return float(steps.min() if len(steps) < 2 else steps[~jumps].min())
+        return np.asarray(JUMP * steps < np.minimum(beside[:-2], beside[2:]))
 
     def displacement_at(self, time: float) -> float:
         """Return the displacement at a time (m)."""

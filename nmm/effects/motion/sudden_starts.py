@@ -1,5 +1,6 @@
-"""Ground that sets out at once, under bodies that have another speed or stand elsewhere."""
+"""Ground that sets out or stops at once, under bodies of another speed or that stand elsewhere."""
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,11 +19,15 @@ SMALL = 0.05
 NEAR = 1e-3
 """So is one of place, which a single step makes up for, below this share of the largest way."""
 
+FEW = 4
+"""A change over fewer steps is a jump to supports: bodies swing by 0.13 of one over three steps."""
+
 
 def sudden_start(setup: Setup, support: "SupportTable", place: Place) -> str:
-    """Tell, in words, the jumps with which the records of a support begin; empty without any.
+    """Tell, in words, the jumps of the records of a support, at first and later; empty without any.
 
-    Records of displacement have a corner at each sample: their speed does not count.
+    Records of displacement have a corner at each sample: their speed does not count, but jumps of
+    place do.
 
     Parameters
     ----------
@@ -43,13 +48,16 @@ def sudden_start(setup: Setup, support: "SupportTable", place: Place) -> str:
         kept = setup.scene.records[name].quantity != "displacement"
         if kept and abs(speed) > SMALL * np.abs(motion.velocity).max():
             found.append(f"sets out at once with {speed:.3g} m/s along {along} beside them")
+        values, unit = (motion.velocity, "m/s") if kept else (motion.displacement, "m")
+        for time, jump in _later(setup, motion, values):
+            found.append(f"jumps by {jump:.3g} {unit} along {along} at {time:.3g} s")
     if not found:
         return ""
     return (
         f'the ground of support "{support.name}" {" and ".join(found)}: `newmark` throws bodies to '
-        "and fro by that for good, `shi` and `generalized_alpha` lose as much energy as they give "
-        "them; let the record begin at rest where they stand, and rise over some steps, or give "
-        "them its speed by [[initial_velocities]]"
+        "and fro by that for good, and what slides on them rubs on; `shi` and `generalized_alpha` "
+        "lose as much energy as they give them; let the record begin at rest where they stand, and "
+        "change over some steps, or give them its first speed by [[initial_velocities]]"
     )
 
 
@@ -59,6 +67,18 @@ def _jump_of_speed(setup: Setup, motion: "GroundMotion", axis: int, place: Place
         return float(motion.velocity[0])  # until then it holds them at rest
     speeds = _initial(setup)[np.unique(place.points.body), axis]
     return float(motion.velocity_at(0.0) - speeds.mean())
+
+
+def _later(setup: Setup, motion: "GroundMotion", values: Floats) -> Iterator[tuple[float, float]]:
+    """Yield the times of jumps of values (k,) at the samples within the run (s), and the jumps."""
+    step, duration = setup.formulation.integrator.step, setup.scene.duration
+    longest = np.inf if step == "auto" else FEW * step
+    steps, change = np.diff(motion.times), np.diff(values)
+    large = np.abs(change) > SMALL * np.abs(values).max()
+    start, end = motion.times[:-1], np.inf if duration is None else duration
+    within = (start >= 0) & (start < end) & (steps < longest)
+    for number in np.flatnonzero(motion.jumps & large & within):
+        yield float(start[number]), float(change[number])
 
 
 def _initial(setup: Setup) -> Floats:

@@ -283,9 +283,13 @@ step = 0.001
         ([[0.005, 1], [1, 1]], 0.0, "sets out at once with 1 m/s along x"),
         ([[-0.01, 1], [1, 1]], 1.0, "is 0.01 m away along x at time zero"),
         ([[0, 0.01], [0.01, 1]], 0.0, ""),
+        ([[0, 0], [0.008, 0], [0.00801, 1], [1, 1]], 0.0, "jumps by 1 m/s along x at 0.008 s"),
+        ([[0, 2], [0.008, 2], [0.00801, 1], [1, 1]], 2.0, "jumps by -1 m/s along x at 0.008 s"),
+        ([[-2, 0], [0, 0], [0.01, 1], [3, 1]], 0.0, ""),
+        ([[0, 0], [0.03, 0], [0.0301, 1], [3, 1]], 0.0, ""),
     ],
 )
-def test_ground_that_sets_out_at_once_throws_bodies_about_and_is_told(samples, first, told):
+def test_ground_that_jumps_throws_bodies_about_and_is_told(samples, first, told):
     run = nmm.run(nmm.parse_scene(BELT.format(samples=samples, first=first)))
     found = [one for one in run.summary.warnings if one.startswith("supports: ")]
     assert len(found) == bool(told)
