@@ -286,13 +286,14 @@ def _sharing(supports: Sequence[Imposition]) -> list[Imposition]:
 
 
 def _sudden_starts(setup: Setup, interfaces: Sequence[Interface]) -> str:
-    """Tell jumps of records, from where the run begins; empty without any."""
-    pairs = list(zip(setup.scene.supports, interfaces, strict=True))
-    if setup.scene.inertia is None or setup.start.time > 0 or not any(s.motion for s, _ in pairs):
+    """Tell jumps of the ground, from where the run begins; empty without any."""
+    pairs = zip(setup.scene.supports, interfaces, strict=True)
+    driven = [(s, one) for s, one in pairs if s.motion or s.history or s.field is not None]
+    if setup.scene.inertia is None or setup.start.time > 0 or not driven:
         return ""
     from nmm.effects.motion.sudden_starts import sudden_start
 
-    told = (sudden_start(setup, support, one.first) for support, one in pairs if support.motion)
+    told = (sudden_start(setup, table, one.first, one.displacement) for table, one in driven)
     return "; ".join(filter(None, told))
 
 

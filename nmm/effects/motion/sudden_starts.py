@@ -1,16 +1,17 @@
 """Ground that sets out or stops at once, under bodies of another speed or that stand elsewhere."""
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.places import Place
-from nmm.effects.base import Setup
+from nmm.effects.base import Instant, Setup
+from nmm.effects.motion.given_ways import jumps_of_way
+from nmm.effects.motion.record import GroundMotion
 
 if TYPE_CHECKING:
-    from nmm.effects.motion.record import GroundMotion
     from nmm.scene.actions import SupportTable
 
 SMALL = 0.05
@@ -23,11 +24,12 @@ FEW = 4
 """A change over fewer steps is a jump to supports: bodies swing by 0.13 of one over three steps."""
 
 
-def sudden_start(setup: Setup, support: "SupportTable", place: Place) -> str:
-    """Tell, in words, the jumps of the records of a support, at first and later; empty without any.
+def sudden_start(
+    setup: Setup, support: "SupportTable", place: Place, ground: Callable[[Instant], Floats]
+) -> str:
+    """Tell, in words, the jumps of the ground of a support, at first and later; empty without any.
 
-    Records of displacement have a corner at each sample: their speed does not count, but jumps of
-    place do.
+    Records of displacement have a corner at each sample: theirs are those of `jumps_of_way`.
 
     Parameters
     ----------
@@ -35,50 +37,63 @@ def sudden_start(setup: Setup, support: "SupportTable", place: Place) -> str:
         At the start of the run: its bodies have their initial velocities there.
     support, place
         The support, and its points.
+    ground
+        Its displacement (2,) or (m, 2) at an instant (m).
     """
-    from nmm.effects.motion.record import GroundMotion
-
+    speeds = _initial(setup)[np.unique(place.points.body)].mean(axis=0)
     found = []
-    for along, name in support.motion.items():
-        motion, axis = GroundMotion.of(setup.scene.records[name]), "xy".index(along)
-        way = motion.displacement_at(0.0)
-        if abs(way) > NEAR * np.abs(motion.displacement).max():
-            found.append(f"is {way:.3g} m away along {along} at time zero")
-        speed = _jump_of_speed(setup, motion, axis, place)
-        kept = setup.scene.records[name].quantity != "displacement"
-        if kept and abs(speed) > SMALL * np.abs(motion.velocity).max():
-            found.append(f"sets out at once with {speed:.3g} m/s along {along} beside them")
-        values, unit = (motion.velocity, "m/s") if kept else (motion.displacement, "m")
-        for time, jump in _later(setup, motion, values):
-            found.append(f"jumps by {jump:.3g} {unit} along {along} at {time:.3g} s")
+    for axis, along in enumerate("xy"):
+        if along in support.motion:
+            found += _away(setup, support.motion[along], along)
+        if along in support.motion and _has_speed(setup, support.motion[along]):
+            jumps = _of_record(setup, support.motion[along], speeds[axis])
+        else:
+            jumps = jumps_of_way(setup, support, ground, axis, speeds[axis])
+        found += [_words(time, jump, along) for time, jump in jumps]
     if not found:
         return ""
     return (
         f'the ground of support "{support.name}" {" and ".join(found)}: `newmark` throws bodies to '
         "and fro by that for good, and what slides on them rubs on; `shi` and `generalized_alpha` "
-        "lose as much energy as they give them; let the record begin at rest where they stand, and "
+        "lose as much energy as they give them; let the ground begin at rest where they stand, and "
         "change over some steps, or give them its first speed by [[initial_velocities]]"
     )
 
 
-def _jump_of_speed(setup: Setup, motion: "GroundMotion", axis: int, place: Place) -> float:
-    """Return the speed of the ground as it sets out, less the mean one of its bodies (m/s)."""
-    if motion.times[0] > 0:
-        return float(motion.velocity[0])  # until then it holds them at rest
-    speeds = _initial(setup)[np.unique(place.points.body), axis]
-    return float(motion.velocity_at(0.0) - speeds.mean())
+def _words(time: float, jump: float, along: str) -> str:
+    if time == 0:
+        return f"sets out at once with {jump:.3g} m/s along {along} beside them"
+    return f"jumps by {jump:.3g} m/s along {along} at {time:.3g} s"
 
 
-def _later(setup: Setup, motion: "GroundMotion", values: Floats) -> Iterator[tuple[float, float]]:
-    """Yield the times of jumps of values (k,) at the samples within the run (s), and the jumps."""
+def _has_speed(setup: Setup, record: str) -> bool:
+    return setup.scene.records[record].quantity != "displacement"
+
+
+def _away(setup: Setup, record: str, along: str) -> list[str]:
+    """Tell a record that does not begin where its bodies stand."""
+    motion = GroundMotion.of(setup.scene.records[record])
+    way = motion.displacement_at(0.0)
+    away = abs(way) > NEAR * np.abs(motion.displacement).max()
+    return [f"is {way:.3g} m away along {along} at time zero"] if away else []
+
+
+def _of_record(setup: Setup, record: str, speed: float) -> list[tuple[float, float]]:
+    """Return the times (s) and jumps of the speed of a record within the run (m/s).
+
+    ``speed`` (m/s) is the mean one of its bodies at the start.
+    """
+    motion = GroundMotion.of(setup.scene.records[record])
+    late = motion.times[0] > 0  # until then it holds them at rest
+    first = motion.velocity[0] if late else motion.velocity_at(0.0) - speed
+    small = SMALL * np.abs(motion.velocity).max()
+    found = [(0.0, float(first))] if abs(first) > small else []
     step, duration = setup.formulation.integrator.step, setup.scene.duration
     longest = np.inf if step == "auto" else FEW * step
-    steps, change = np.diff(motion.times), np.diff(values)
-    large = np.abs(change) > SMALL * np.abs(values).max()
-    start, end = motion.times[:-1], np.inf if duration is None else duration
-    within = (start >= 0) & (start < end) & (steps < longest)
-    for number in np.flatnonzero(motion.jumps & large & within):
-        yield float(start[number]), float(change[number])
+    change, start = np.diff(motion.velocity), motion.times[:-1]
+    within = (start >= 0) & (start < (np.inf if duration is None else duration))
+    told = motion.jumps & (np.abs(change) > small) & within & (np.diff(motion.times) < longest)
+    return found + [(float(start[i]), float(change[i])) for i in np.flatnonzero(told)]
 
 
 def _initial(setup: Setup) -> Floats:

@@ -298,3 +298,41 @@ def test_ground_that_jumps_throws_bodies_about_and_is_told(samples, first, told)
     # energies of 2 t by 4 kJ, a part of it in strain; a ramp over ten steps leaves less than 0.2.
     kinetic = run.history["kinetic_energy"][12:] / 1000.0
     assert (np.ptp(kinetic) > 2) if told else (np.ptp(kinetic) < 0.2)
+
+
+STEADY = "displacement = [1, 0]\nhistory = [[0, 0], [1, 1]]"
+
+
+@pytest.mark.parametrize(
+    ("way", "first", "told"),
+    [
+        (STEADY, 0.0, "sets out at once with 1 m/s along x"),
+        (STEADY, 1.0, ""),
+        ('field = ["t", "0"]', 0.0, "sets out at once with 1 m/s along x"),
+        ('field = ["0.01*(1 - cos(100*t))", "0"]', 0.0, ""),
+        ('motion = { x = "way" }', 0.0, "sets out at once with 1 m/s along x"),
+        ('motion = { x = "way" }', 1.0, ""),
+        (
+            STEADY.replace("[1, 1]", "[0.009, 0], [1, 0.991]"),
+            0.0,
+            "jumps by 1 m/s along x at 0.009",
+        ),
+        (STEADY.replace("[1, 1]", "[0.03, 0], [1, 1]"), 0.0, ""),
+    ],
+)
+def test_ground_whose_way_is_given_is_told_where_its_speed_jumps(way, first, told):
+    text = BELT.format(samples=[[0, 1], [1, 1]], first=first)
+    text = text.replace('motion = { x = "speed" }', way)
+    if "motion" in way:
+        text = text.replace(".speed", ".way").replace('"velocity"', '"displacement"')
+        text = text.replace("[[0, 1], [1, 1]]", "[[0, 0], [1, 1]]")
+    else:
+        text = text.replace("[records.speed]", "").replace('quantity = "velocity"\n', "")
+        text = text.replace("samples = [[0, 1], [1, 1]]\n", "")
+    run = nmm.run(nmm.parse_scene(text))
+    found = [one for one in run.summary.warnings if one.startswith("supports: ")]
+    assert len(found) == bool(told)
+    assert all(told in one for one in found)
+    if "cos" not in way:
+        kinetic = run.history["kinetic_energy"][12:] / 1000.0  # as above
+        assert (np.ptp(kinetic) > 2) if told else (np.ptp(kinetic) < 0.2)
