@@ -15,6 +15,7 @@ def steps(run: EndedRun) -> Findings:
     """Audit time steps and load increments."""
     yield from _impacts(run) if run.dynamic else _increments(run)
     yield from _records(run) if run.dynamic else ()
+    yield from _rebounds(run) if run.dynamic else ()
     yield from _unresolved(run)
 
 
@@ -70,6 +71,22 @@ def _impacts(run: EndedRun) -> Findings:
         f"springs of contact lost {percent(ledger.contact_loss / ledger.throughput)} of the "
         f"turnover: an impact of the lightest body lasts some {lasts:.2g} s, a step {step:g} s",
         f"take steps of {lasts / 10:.2g} s, or a lower [contact] normal_penalty",
+    )
+
+
+def _rebounds(run: EndedRun) -> Findings:
+    """Tell bodies that met and parted in one step: how fast depends on where in it they met."""
+    totals, contact = run.recorder.totals, run.stepper.plan.contact
+    turnover = run.recorder.ledger.throughput
+    if contact is None or not contact.exact or not turnover:
+        return
+    share = totals.rebound / turnover
+    yield AuditFinding(
+        "rebound_in_step",
+        share,
+        f"{totals.thrown}, within one step, with {percent(share)} of the turnover: so fast they "
+        "part by where in the step they met, and rigid bodies would stay together",
+        'take [contact] enforcement = "penalty" and steps that resolve the impact on its springs',
     )
 
 

@@ -133,6 +133,13 @@ THRESHOLDS: dict[str, Threshold] = {
         1e-3,
         "dynamics without supports, loads and weight, unless axes stay",
     ),
+    "rebound_in_step": Threshold(
+        "largest energy with which bodies part at the end of a step at whose start they met, and "
+        "in which waves cross the smaller of both, over the turnover",
+        0.02,
+        None,
+        "dynamics with exact enforcements of contact",
+    ),
     "contact_duration": Threshold(
         "time step over the duration of an impact of the lightest body, where springs of contact "
         "lost more than 1 % of the turnover",

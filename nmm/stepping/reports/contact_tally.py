@@ -1,13 +1,16 @@
 """How contacts stand after a step: how many in which state, how deep, how stiff."""
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 from integration.contraction import largest, least, summed
 from nmm.assembly.state import State
+from nmm.effects.base import Instant
 from nmm.frozen import with_parts
+from nmm.stepping.reports.rebounds import Rebound, rebound
 from nmm.stepping.reports.totals import Totals
 from nmm.stepping.step.anchors import block_name
 from nmm.stepping.step.stepper import Stepper
@@ -46,6 +49,12 @@ def tallied(
             share, deepest = float(over[at]), _deepest(stepper, contacts, at, gap[at], after.time)
     tally = np.bincount(contacts.state, minlength=len(NAMES)).tolist()
     counts = dict(zip(NAMES, tally, strict=True)) | {"broken": contact.broken_bonds}
+    if contact.exact and attempt.booked is not None and attempt.solved is not None:
+        force = partial(stepper.plan.force, before, Instant.of(before))
+        found = rebound(stepper.model, contact, attempt.solved, before, after, force)
+        if found is not None and found.energy > totals.rebound:
+            told = _thrown_apart(stepper, found, after.time)
+            totals = with_parts(totals, rebound=found.energy, thrown=told)
     ways = 0 if attempt.solved is None or attempt.solved.ways is None else attempt.solved.ways()
     totals = with_parts(
         totals,
@@ -82,9 +91,20 @@ def _over_smaller(stepper: Stepper, contacts: "ContactPoints", gap: Floats) -> F
 
 def _deepest(stepper: Stepper, contacts: "ContactPoints", at: int, gap: float, time: float) -> str:
     """Say how deep a contact point lies, between which blocks, and when it was so."""
+    owner = stepper.model.manifold.boundary.body
+    pair = _named(stepper, owner[[contacts.edge_a[at], contacts.edge_b[at]]])
+    when = f" at {time:.4g} s" if "inertia" in stepper.plan.effects else ""
+    return f"{-gap:.3g} m between {pair}{when}"
+
+
+def _thrown_apart(stepper: Stepper, found: Rebound, time: float) -> str:
+    """Say how fast bodies met and part, which, and when."""
+    pair = _named(stepper, found.bodies)
+    return f"{pair} met at {found.met:.3g} m/s and parted at {found.parts:.3g} at {time:.4g} s"
+
+
+def _named(stepper: Stepper, bodies: Ints) -> str:
+    """Return the names of the blocks of two bodies."""
     made = stepper.discretisation
-    owner = made.model.manifold.boundary.body
-    bodies = owner[[contacts.edge_a[at], contacts.edge_b[at]]]
-    pair = [block_name(made.model, body, made.setup.region_name) for body in bodies]
-    when = f" at {time:.4g} s" if "inertia" in made.plan.effects else ""
-    return f"{-gap:.3g} m between {pair[0]} and {pair[1]}{when}"
+    one, other = (block_name(made.model, body, made.setup.region_name) for body in bodies)
+    return f"{one} and {other}"

@@ -28,6 +28,9 @@ class Totals:
         Largest overlap of bodies where steps end, over the size (root of the area) of the smaller.
     deepest
         How deep that was, of which bodies, and when, in words; empty before any overlapped.
+    rebound, thrown
+        Largest energy (J) with which an exact enforcement parts bodies in a step that does not
+        resolve their impact (`rebounds`), and which these are, how fast, and when, in words.
     ways, alike
         Most ways in which a step along a path was not stable, and the load factor of the first step
         with more than one; None before any.
@@ -54,6 +57,8 @@ class Totals:
     penetration: float = 0.0
     overlap: float = 0.0
     deepest: str = ""
+    rebound: float = 0.0
+    thrown: str = ""
     stiffest: float = 0.0
     borne: float = 0.0
     ways: int = 0
