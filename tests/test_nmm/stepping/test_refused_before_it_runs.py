@@ -49,6 +49,12 @@ until = "failure"
 [loading.control]
 type = "events"
 """
+SPLITS = """[splitting.m]
+tensile_strength = 1e6
+cohesion = 1e6
+friction_angle = 0.6
+smallest_block = 0.1
+"""
 SOFTENS = """law = "exponential_softening"
 fracture_energy = 1.0
 normal_stiffness = 5e9
@@ -66,6 +72,12 @@ def refusal(text: str) -> str:
 @pytest.mark.parametrize("part", ['enforcement = "cone"', 'enforcement = "lagrange"'])
 def test_what_hinders_a_path(part):
     assert "expected springs" in refusal(f"{BEAM}{EVENTS}[formulation.contact]\n{part}\n")
+
+
+def test_blocks_that_split_beside_a_path_are_told_with_the_line_of_the_control():
+    text = f"{BEAM}{SPLITS}{EVENTS}[formulation]\n"
+    line = text.splitlines().index("[loading.control]") + 1
+    assert refusal(text).startswith(f"scene:{line}: loading.control: splitting: expected blocks")
 
 
 def test_a_spring_of_a_bond_that_is_too_soft_for_its_energy():
