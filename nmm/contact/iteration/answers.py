@@ -6,7 +6,7 @@ from integration.arrays import Floats
 from nmm.contact.iteration.cut_spring_solver import solve_springs
 from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.answer_kernel import ended
-from nmm.contact.problem.balance import rounding
+from nmm.contact.problem.balance import cancelling, rounding
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.step_problem import StepAnswer, Verdict
 from nmm.errors import SolveError
@@ -93,7 +93,8 @@ def _free_part(found: IterationResult, tools: Tools) -> Verdict | None:
         shear = np.where(is_open | sliding, 0.0, springs.stiffness[1])
         try:
             factor = tools.linear.factorise(pattern.matrix(problem, normal, shear))
-            increment = increment - factor.solve(springs.residual(increment).force, problem.among)
+            rest = springs.residual(increment).force
+            increment = increment - factor.solve(rest, cancelling(springs, increment))
         except SolveError as fault:
             sentence = (
                 f"{int(is_open.sum())} of {problem.n_contacts} contacts open, "

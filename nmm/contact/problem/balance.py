@@ -55,3 +55,19 @@ def rounding(springs: CutSprings, increment: Floats) -> float:
     whole = max(norm(springs.weight * part) for part in (inner, held, problem.force))
     whole = max(whole, problem.least(springs.weight))
     return min(norm(springs.weight * left) / whole, WORST) if whole > 0 else 0.0
+
+
+def cancelling(springs: CutSprings, increment: Floats) -> Floats:
+    """(n,) sizes of the forces (N) of which the out-of-balance force of an increment is the rest.
+
+    Where functions depend on one another their rounding does work on what moves nothing: a rest
+    that is a small part of them tells no free motion (`nmm.solvers.accuracy.known.known_load`).
+    """
+    problem = springs.problem
+    rows, starts = (problem.normal_rows, problem.tangent_rows), (problem.gap, problem.slip)
+    sizes = springs.stiffness * (np.abs(starts) + terms_of_stretches(*rows, increment))
+    held = np.where(np.stack(springs.forces(increment)) != 0, sizes, 0.0)
+    load = np.abs(problem.force) if problem.among is None else problem.among
+    inner = magnitudes(problem.matrix) @ np.abs(increment)
+    normal, tangent = (magnitudes(part) for part in rows)
+    return np.asarray(load + inner + pushed(normal, tangent, *held))

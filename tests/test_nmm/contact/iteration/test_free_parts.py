@@ -46,6 +46,23 @@ def test_what_is_pulled_off_its_only_contact_is_free_and_what_is_pressed_on_is_n
     assert verdict.code == code
 
 
+def test_functions_that_depend_on_one_another_are_no_free_part():
+    """Both unknowns move the same held body: how far they cancel is left to rounding."""
+    functions, stiff, apart = np.array([1.0, 1 / 3]), 1e10, 1e3
+    held = replace(
+        one_contact(-1.0).problem,
+        matrix=csc_array(stiff * np.outer(functions, functions)),
+        force=-1e2 * functions,
+        normal_rows=csr_array(functions[None]),
+        tangent_rows=csr_array(0 * functions[None]),
+    )
+    # Forces of 1e13 N cancel but for 1e-3 N, which does work on the motion that moves nothing.
+    still = apart * np.array([1 / 3, -1.0])
+    found = IterationResult(CutSprings.of(held), still, 1.0, 5, 1, "5 solves")
+    verdict = unsettled(found, Tools(make_solver("superlu"), Memory(), DEFAULT), "soften it")
+    assert verdict.code == "stalled"
+
+
 def test_contacts_most_out_of_balance_are_named_first():
     springs = one_contact(-1.0)
     problem = springs.problem
