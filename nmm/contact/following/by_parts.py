@@ -1,17 +1,20 @@
-"""A step along a path, whole or in parts that Newton's method can solve.
+"""A step along a path, whole, from cell to cell, or in parts that Newton's method can solve.
 
-Contacts that stick and slide, open and close in turn can make Newton's method cycle. From an
-iterate whose forces are out of balance by ``r`` there is a line of problems that want ``t r`` less
-than all of it, with the path's target as far on: at ``t = 0`` the iterate solves its problem, and
-each solution is a guess near that of a slightly larger ``t`` (Newton homotopy; Allgower and Georg
-1990). Where no part of the way can be gone, however small, solutions turn back before the target,
-as friction lets them: the step is given up. First it is tried with more patience.
+Contacts that stick and slide, open and close in turn can make Newton's method cycle. It is tried
+with more patience, then cells of contact states are followed (`cells`): from the start of the step,
+and from where Newton's method ended. A law that is curved has no cells. There, from an iterate
+whose forces are out of balance by ``r``, there is a line of problems that want ``t r`` less than
+all of it, with the path's target as far on: at ``t = 0`` the iterate solves its problem, and each
+solution is a guess near that of a slightly larger ``t`` (Newton homotopy; Allgower and Georg 1990).
+Where no part of the way can be gone, however small, solutions turn back before the target, as
+friction lets them: the step is given up.
 """
 
 from dataclasses import replace
 
 import numpy as np
 
+from nmm.contact.following.cells import from_cell_to_cell
 from nmm.contact.following.newton import newton
 from nmm.contact.following.path_problem import PathProblem, PathStep
 from nmm.controls.path_equation import PathEquation
@@ -40,7 +43,13 @@ def follow(problem: PathProblem, path: PathEquation, solver: LinearSolver) -> Pa
     if not found.converged:
         again = newton(problem, path, solver, begin, patient=True)
         found = replace(again, iterations=found.iterations + again.iterations)
-    return found if found.converged else _by_parts(problem, path, solver, begin, found)
+    if found.converged:
+        return found
+    for start in (begin, found):
+        end = from_cell_to_cell(problem, path, solver, start)
+        if end is not None and end.converged:
+            return replace(end, iterations=found.iterations + end.iterations)
+    return _by_parts(problem, path, solver, begin, found)
 
 
 def _by_parts(
