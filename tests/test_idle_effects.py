@@ -3,14 +3,19 @@
 import os
 import subprocess
 import sys
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import nmm
+from nmm.effects.gravity import Gravity
+from nmm.effects.members.chains import Chains
+from nmm.effects.members.linked import Linked
 from nmm.effects.members.links import Links
 from nmm.model.effects_table import EFFECTS
+from nmm.stepping.step.linear.assembly import Assembly
 
 BENCHMARKS = Path(__file__).resolve().parents[1] / "benchmarks"
 sys.path.insert(0, str(BENCHMARKS))
@@ -47,6 +52,32 @@ def test_an_idle_member_makes_its_matrix_once_a_run(name, monkeypatch):
     nmm.run(IDLE[name].scenes(2 * STEPS)[1])
     # Bricks under their weight turn by far less than a thousandth in this time.
     assert len(made) == 1
+
+
+def test_a_bolt_answers_each_solution_of_a_step_once_and_solves_for_no_slips(monkeypatch):
+    """Its laws are linear: slips are a product, and a step begins with the answer at its start."""
+    counts = Counter()
+
+    def counted(kind, name):
+        was = getattr(kind, name)
+        monkeypatch.setattr(kind, name, lambda *a: counts.update([name]) or was(*a))
+
+    counted(Chains, "answer")
+    counted(Chains, "_nearer")
+    counted(Linked, "step_force")
+    nmm.run(IDLE["a bolt in a wall at rest"].scenes(2 * STEPS)[1])
+    assert counts["step_force"] >= 2 * STEPS
+    assert counts["answer"] <= counts["step_force"] + 1  # and where the run begins
+    assert counts["_nearer"] == 0
+
+
+def test_forces_that_no_instant_changes_are_asked_once_a_solution(monkeypatch):
+    asked, solved, force, of = [], [], Gravity.force, Assembly.of
+    monkeypatch.setattr(Gravity, "force", lambda *a: asked.append(0) or force(*a))
+    monkeypatch.setattr(Assembly, "of", lambda *a: solved.append(0) or of(*a))
+    nmm.run(IDLE["a bolt in a wall at rest"].scenes(STEPS)[1])
+    assert len(solved) >= STEPS
+    assert len(asked) <= len(solved) + 1  # and where the run begins
 
 
 OF_CONTACT = """

@@ -44,4 +44,4 @@ class HalfWay:
         parts = effect.force(ahead, end) * place.deformation
         moment = np.bincount(manifold.unknown_body, parts, manifold.n_bodies)
         more = np.column_stack([turned - resultant, moment])
-        return np.asarray(acting + product(self.model.rigid_projection.T, more.ravel()))
+        return np.asarray(acting + product(self.model.rigid_spread, more.ravel()))

@@ -92,6 +92,11 @@ class Solid:
         norm = (weighted @ modes).diagonal()
         return csr_array(diags_array(1 / norm) @ weighted)
 
+    @cached_property
+    def rigid_spread(self) -> csc_array:
+        """(n_unknowns, 3 B) from forces and moments of bodies to forces on the unknowns."""
+        return csc_array(self.rigid_projection.T)
+
     def body_load(self, load: Floats) -> Floats:
         """Force vector of a load density (E, 2) in N/m3, in body axes."""
         return self._vector(

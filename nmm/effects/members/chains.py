@@ -13,11 +13,12 @@ from typing import Self
 
 import numpy as np
 from scipy.linalg import LinAlgError, cho_solve_banded, cholesky_banded
-from scipy.sparse import coo_array, csr_array, diags_array
+from scipy.sparse import block_diag, coo_array, csr_array, diags_array
 from scipy.sparse.csgraph import connected_components
 
 from integration.arrays import Floats, Ints
 from nmm.effects.members.fibres import FibreAnswer, Fibres
+from nmm.solvers.unchecked import product
 
 # Residual of a bar, over its forces, at which slips have converged, and the largest number of
 # iterations.
@@ -103,9 +104,11 @@ class Chains:
     def answer(self, stretch: Floats, slip: Floats, memory: tuple[Floats, Floats]) -> ChainAnswer:
         """Return the response to elongations (m,) (m), by iteration from slips (p,) (m).
 
-        ``memory`` is that of links (m, 2) and of bonds (p, 2) at the start of the step.
+        That of linear laws begins where they balance, whatever ``slip`` is. ``memory`` is that of
+        links (m, 2) and of bonds (p, 2) at the start of the step.
         """
-        now = self._at(stretch, slip, memory)
+        begun = self._linear_slips(stretch) if self.linear and len(slip) else slip
+        now = self._at(stretch, begun, memory)
         if not len(slip):
             return now
         size = before = np.inf
@@ -146,6 +149,20 @@ class Chains:
     def _at(self, stretch: Floats, slip: Floats, memory: tuple[Floats, Floats]) -> ChainAnswer:
         axial = self.axial.answer(stretch + self._opened(slip), memory[0])
         return ChainAnswer(axial, self.bond.answer(slip, memory[1]), slip, NONE)
+
+    def _linear_slips(self, stretch: Floats) -> Floats:
+        """Return the slips (p,) at which linear laws balance under elongations (m,)."""
+        axial, bond = self.axial, self.bond
+        held = self._pulled(axial.area * axial.start + axial.stiffness * stretch)
+        return -product(self._compliance, held + bond.area * bond.start)
+
+    @cached_property
+    def _compliance(self) -> csr_array:
+        """(p, p) from forces at slips to the slips of linear laws."""
+        factor = cholesky_banded(self._elastic)
+        bars = [slips for _, slips, _ in self._bars if len(slips)]  # one after the other
+        parts = [cho_solve_banded((factor[:, one], False), np.eye(len(one))) for one in bars]
+        return csr_array(block_diag(parts))
 
     def _residual(self, at: ChainAnswer) -> tuple[Floats, float]:
         """Residual forces (p,), and the magnitude of forces or of their rounding (N)."""

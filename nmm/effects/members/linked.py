@@ -8,7 +8,7 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.applied_forces import AppliedForces, joined
-from nmm.assembly.kept import KeptOfStates
+from nmm.assembly.kept import KeptOfPlaces, KeptOfStates
 from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 from nmm.effects.members.chains import ChainAnswer
@@ -25,6 +25,12 @@ if TYPE_CHECKING:
 ALIKE = 1e-6
 
 
+class _OfAStep(KeptOfPlaces[ChainAnswer]):
+    """Answers at the start of a step and at two of its iterates."""
+
+    most = 3
+
+
 class Linked(Effect):
     """Members whose axial forces follow from the elongation between their ends."""
 
@@ -35,7 +41,9 @@ class Linked(Effect):
         self.external = members.links.grounded
         self._model = setup.model
         self._offset = np.zeros(len(members.links))
-        self._answers = KeptOfStates(self._answered)
+        # What linear laws answer hangs on the place alone: the end of a step starts the next.
+        linear = members.chains.linear
+        self._answers = _OfAStep(self._answered) if linear else KeptOfStates(self._answered)
         self._matrices = KeptOfStates(self._stiffness)
         self._forces = KeptOfStates(self._force)
         self._kept = KeptMatrix(setup)
@@ -81,7 +89,8 @@ class Linked(Effect):
 
     def step_force(self, before: State, after: State, span: Span) -> StepForce:
         members, links, weight = self.members, self.members.links, span.weight
-        start, end = self._answers.of(before), self._answered(after)
+        start = self._answers.of(before)
+        end = self._answers.of(after) if members.chains.linear else self._answered(after)
         if len(end.broken):
             raise SolveError(self._lost(end))
         force = weight * end.axial.force
@@ -149,6 +158,7 @@ class Linked(Effect):
     def join_run(self, state: State) -> None:
         """See `Effect.join_run`: members are free of stretch in this state, but for prestress."""
         self._offset = self.members.links.stretch(state)
+        self.forget()
 
     def forget(self) -> None:
         self._answers.forget()

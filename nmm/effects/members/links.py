@@ -14,9 +14,11 @@ from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Floats, Ints
 from integration.plane_vectors import counterclockwise, cross
+from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.effects.members.ends import MemberEnds
+from nmm.solvers.unchecked import product
 
 
 @dataclass(frozen=True)
@@ -98,7 +100,11 @@ class Links:
 
     def way(self, state: State) -> Floats:
         """Return the displacement of second ends relative to first ones (m, 2) (m)."""
-        return self.second.way(state) - self.first.way(state)
+        return self._ways.of(state)
+
+    @cached_property
+    def _ways(self) -> KeptOfPlaces[Floats]:
+        return KeptOfPlaces(lambda state: self.second.way(state) - self.first.way(state))
 
     def place(self, state: State) -> Floats:
         """Return the present places of both ends (m, 2, 2) (m)."""
@@ -182,4 +188,4 @@ class Links:
             arm = end.arm(before, after)
             turning = cross(arm, pull)
             moment[:, 2] += np.bincount(end.points.body, turning, minlength=len(moment))
-        return np.asarray(model.rigid_projection.T @ moment.ravel())
+        return product(model.rigid_spread, moment.ravel())

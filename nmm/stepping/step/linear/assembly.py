@@ -55,7 +55,8 @@ class Assembly:
         line = Linearisation.linear(model, state) if matter is None else matter
         half = self._half_way(state, step, rule)
         parts = list(plan.forces(state, end, half))
-        force = sum(parts, start=np.zeros(state.deformation.shape)) - line.force
+        applied = sum(parts, start=np.zeros(state.deformation.shape))
+        force = applied - line.force
         among, rests = None, step is None or plan.inertia is None
         if model.manifold.dependent or not rests:
             among = sum((np.abs(part) for part in parts), start=np.abs(line.force))
@@ -73,7 +74,9 @@ class Assembly:
         given = Equations(
             state, end, step, rule, line.stiffness, force, symmetric=even, among=among
         )
-        return self._in_time(given, line, matter is None, half)
+        same = plan.steady and end.load_factor == state.load_factor
+        before = applied if same else plan.force(state, Instant.of(state), half)
+        return self._in_time(given, line, matter is None, before)
 
     def _nothing_acts(self, parts: Sequence[Floats], force: Floats, matrix: csc_array) -> bool:
         """Whether a force (n,) is left of earlier loads: no more than places are rounded by.
@@ -103,13 +106,16 @@ class Assembly:
         return HalfWay(model, move(model, state, share * way))
 
     def _in_time(
-        self, static: Equations, line: Linearisation, linear: bool, half: HalfWay | None
+        self, static: Equations, line: Linearisation, linear: bool, before: Floats
     ) -> Equations:
-        """Return the equations with inertia, over the factor of contact forces."""
+        """Return the equations with inertia, over the factor of contact forces.
+
+        ``before`` (n,) are the forces of effects at the instant of the start.
+        """
         plan, rule, state, step = self._solved.plan, static.rule, static.state, static.step
         assert step is not None
         assert plan.inertia is not None
-        force, gain, applied = self._weighed(static, line, plan.steady and linear, half)
+        force, gain, applied = self._weighed(static, line, plan.steady and linear, before)
         velocity, mass = rule.kinetic_factor * state.velocity, plan.inertia.mass
         rates, factor = rule.momentum(velocity, state.acceleration, step), rule.mass_factor(step)
         spin, less = plan.inertia.through(state, step, rule.kinetic_factor), None
@@ -133,19 +139,18 @@ class Assembly:
         return with_parts(static, matrix=matrix, force=pushed / share, inertia=terms)
 
     def _weighed(
-        self, static: Equations, line: Linearisation, steady: bool, half: HalfWay | None
+        self, static: Equations, line: Linearisation, steady: bool, before: Floats
     ) -> tuple[Floats, Floats | None, Floats | None]:
         """Return the force (n,) as the integrator weighs both ends, and what of it grows.
 
         See `InertiaTerms` for ``gain`` and ``applied``, which are None where forces are steady.
         """
-        plan, weight = self._solved.plan, static.rule.end_weight
-        force, state = static.force, static.state
+        weight, force, state = static.rule.end_weight, static.force, static.state
         if weight == 1 and steady:
             return force, None, None
         gain: Floats | None = None
         applied: Floats | None = None
-        earlier = plan.force(state, Instant.of(state), half) - line.start
+        earlier = before - line.start
         if not steady:
             gain = force - earlier
             if weight > 0.5:  # means of both ends do what effects say they do
