@@ -124,6 +124,7 @@ def _laws(setup: Setup) -> ContactLaws:
         normal_bond=bond,
         shear_bond=bond * method.shear_ratio,
         consistent=glued and consistent(setup.model, method.bonds),
+        names=tuple(setup.scene.interfaces),
     )
 
 

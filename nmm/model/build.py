@@ -64,6 +64,7 @@ def setup_of(
     that elements have the numbers of: those of the geometry, unless these are some or pieces.
     """
     model = build_model(scene, formulation, geometry, before)
+    _refuse_large_cells(scene, model)
     start = replace(initial_state(model.manifold), history=model.history())
     if scene.inertia is not None:
         start = replace(start, load_factor=1.0)
@@ -127,6 +128,20 @@ def build_model(
         finite=kinematics_of(scene, formulation).finite,
     )
     return covered(geometry, cover, sheet, before)
+
+
+def _refuse_large_cells(scene: "Scene", model: Model) -> None:
+    """Refuse cells for which a law has no answer, by the material's name."""
+    if model.law is None or model.cell_size is None:
+        return
+    for number, (name, law) in enumerate(zip(scene.materials, model.laws, strict=True)):
+        if not law.sized:
+            continue
+        try:
+            law.check_size(model.cell_size[model.law == number])
+        except FormulationError as error:
+            told = (f"[materials.{name}] {fault}" for fault in error.faults)
+            raise FormulationError(*told) from None
 
 
 def _sound(name: str, law: Law, scene: "Scene") -> Law:

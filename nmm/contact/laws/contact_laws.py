@@ -12,6 +12,7 @@ from nmm.contact.laws.law_facts import LawFacts
 from nmm.contact.points.contact_points import TIED, ContactPoints
 from nmm.contact.points.kept import of_pairs
 from nmm.contact.problem.step_problem import Limits
+from nmm.errors import SceneError
 from nmm.interfaces.base import InterfaceLaw
 from nmm.interfaces.history import KEPT, History
 from nmm.interfaces.response import InterfaceResponse
@@ -36,6 +37,8 @@ class ContactLaws(LawFacts):
         strain gives a uniform stress on all joints (Kawai 1978).
     consistent
         Whether whole bonds whose law has no stiffness of its own are held by consistent terms.
+    names
+        Of the laws, as their tables in a scene have them, for what is said of them.
     """
 
     thickness: float
@@ -44,6 +47,7 @@ class ContactLaws(LawFacts):
     normal_bond: float
     shear_bond: float
     consistent: bool = False
+    names: tuple[str, ...] = ()
 
     def initial(self, interface: Ints, bonded: Bools) -> History:
         """Return the initial history (m,) of contacts with or without a bond."""
@@ -116,9 +120,16 @@ class ContactLaws(LawFacts):
         SceneError
             As `InterfaceLaw.evolved` would in the middle of a run.
         """
-        if self.evolving and len(joints):
-            still = np.zeros(len(joints))
-            self.evolved(joints, still, still, self.normal_stiffness(joints))
+        if not self.evolving or not len(joints):
+            return
+        spring = _over(self.normal_stiffness(joints), self.areas(joints))
+        for number, (law, index, history) in enumerate(self.by_law(joints)):
+            still = np.zeros(len(spring[index]))
+            try:
+                law.evolved(history, still, still, spring[index])
+            except SceneError as error:
+                told = [f"[interfaces.{name}] " for name in self.names[number : number + 1]]
+                raise SceneError("".join([*told, str(error)])) from None
 
     @of_pairs
     def springs(self, contacts: ContactPoints) -> Springs:

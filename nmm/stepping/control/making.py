@@ -37,7 +37,7 @@ def check_path(table: "ControlTable", stepper: "Stepper", formulation: "Formulat
         what = f'type: "{table.type}": no bond breaks, or begins to soften, at a limit of its own'
         faults.append((what, 'use "displacement" or "opening", or no normal_stiffness of bonds'))
     if faults:
-        raise FormulationError(*(f"loading.control: {what}: {why}" for what, why in faults))
+        raise FormulationError(*(f"[loading.control] {what}: {why}" for what, why in faults))
 
 
 def limits(stepper: "Stepper") -> list[str]:

@@ -71,7 +71,9 @@ def refusal(text: str) -> str:
 
 @pytest.mark.parametrize("part", ['enforcement = "cone"', 'enforcement = "lagrange"'])
 def test_what_hinders_a_path(part):
-    assert "expected springs" in refusal(f"{BEAM}{EVENTS}[formulation.contact]\n{part}\n")
+    told = refusal(f"{BEAM}{EVENTS}[formulation.contact]\n{part}\n")
+    assert told.startswith("scene:35: loading.control: [loading.control] ")
+    assert "expected springs" in told
 
 
 def test_blocks_that_split_beside_a_path_are_told_with_the_line_of_the_control():
@@ -85,7 +87,17 @@ def test_a_spring_of_a_bond_that_is_too_soft_for_its_energy():
 
     The curve is one of straight pieces, whose steepest falls a little less.
     """
-    assert "expected above 9.6" in refusal(f"{BEAM}{SOFTENS}[formulation.contact]\n")
+    told = refusal(f"{BEAM}{SOFTENS}[formulation.contact]\n")
+    assert told.startswith("scene:28: interfaces.i: [interfaces.i] ")
+    assert "expected above 9.6" in told
+
+
+def test_cells_too_large_for_what_softens_name_the_material():
+    """Modulus, energy and strength ask for cells of 33 micrometres: those here are 1 m."""
+    soil = 'density = 2000.0\nlaw = "mohr_coulomb"\ncohesion = 1e5\nfriction_angle = 0.5\n'
+    soft = BEAM.replace("density = 2000.0\n", f"{soil}softening_energy = 1e-3\n")
+    told = refusal(f"{soft}[formulation]\n")
+    assert told.startswith("scene:3: materials.m: [materials.m] softening_energy: 0.001: cells")
 
 
 def one_sided(stiffness):
