@@ -21,6 +21,7 @@ from nmm.contact.iteration.newton.semismooth_newton import polish
 from nmm.contact.iteration.options.budgets import SMALL, IterationBudget
 from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
+from nmm.errors import SolveError
 
 
 def solve_springs(
@@ -86,8 +87,14 @@ class _WaysToForces:
         return found
 
     def by_cells(self, increment: Floats) -> IterationResult:
-        """End of the line from an increment to the solution; the increment where it has none."""
-        end = from_cell_to_cell(self.springs, self.tools, increment)
+        """End of the line from an increment to the solution; the increment where it has none.
+
+        Nor has it one where even with all springs acting a part is free.
+        """
+        try:
+            end = from_cell_to_cell(self.springs, self.tools, increment)
+        except SolveError:
+            end = None
         return self.polished(increment if end is None else end)
 
     def shortly(self, increment: Floats, budget: IterationBudget) -> IterationResult:
