@@ -64,7 +64,7 @@ def test_joints_stiff_by_area_make_no_energy_as_the_area_grows(degrees):
     collide(degrees, 'type = "triangles"\nsize = 0.25\ndegree = 1', scene)
 
 
-@pytest.mark.parametrize("enforcement", ["penalty", "cone"])
+@pytest.mark.parametrize("enforcement", ["penalty", pytest.param("cone", marks=pytest.mark.slow)])
 def test_soft_bodies_that_collide_do_not_know_which_is_listed_first(enforcement):
     cover = 'type = "mls"\nsize = 0.3\ndegree = 1'
     more = f'[contact]\nenforcement = "{enforcement}"\n'
