@@ -62,9 +62,9 @@ def jumps_of_way(
     told = np.isin(times[:-1], np.append(0.0, corners))
     told &= np.abs(change) > HALF * np.abs(speeds).max()
     found = [(float(times[i]), float(change[i])) for i in np.flatnonzero(told)]
-    later = [one for one in found if one[0] > 0]
+    later = sorted((one for one in found if one[0] > 0), key=lambda one: -abs(one[1]))
     # Of many corners the sharpest says enough.
-    return found[: len(found) - len(later)] + sorted(later, key=lambda one: -abs(one[1]))[:1]
+    return [one for one in found if one[0] == 0] + later[:1]
 
 
 def _corners(setup: Setup, support: "SupportTable", axis: "Axis") -> Floats:

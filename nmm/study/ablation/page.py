@@ -16,8 +16,7 @@ def ablation_table(found: Ablation) -> list[str]:
     """Return the lines of a table: what was left out, changes of the quantities, seconds saved."""
     heads = ["without", *found.quantities, "seconds", "saved", "ends"]
     lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
-    values = zip(found.quantities, found.whole.values, strict=True)
-    whole = [f"{0 if abs(value) <= found.rounding(name) else value:.6g}" for name, value in values]
+    whole = [f"{0 if abs(value) <= least else value:.6g}" for _, value, least in _whole(found)]
     lines.append(_line([found.whole.name, *whole, f"{found.whole.seconds:.3g}", "", ""]))
     for row in found.rows:
         changes = [_share(change) for change in found.changes(row)]
@@ -54,10 +53,15 @@ def _line(cells: list[str]) -> str:
 
 def ablation_rounding(found: Ablation) -> str:
     """Return in a sentence which quantities of the whole scene are rounding; empty if none is."""
-    values = zip(found.quantities, found.whole.values, strict=True)
-    pairs = [(name, abs(value), found.rounding(name)) for name, value in values]
-    none = [f"{name} (below {least:.2g})" for name, size, least in pairs if size <= least]
+    whole = _whole(found)
+    none = [f"{name} (below {least:.2g})" for name, value, least in whole if abs(value) <= least]
     return f"rounding in the whole scene, shown as 0: {', '.join(none)}" if none else ""
+
+
+def _whole(found: Ablation) -> list[tuple[str, float, float]]:
+    """Names, values of the whole scene, and the sizes up to which these are rounding."""
+    pairs = zip(found.quantities, found.whole.values, strict=True)
+    return [(name, value, found.rounding(name)) for name, value in pairs]
 
 
 def _size(share: float) -> str:
