@@ -17,6 +17,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
+from nmm.assembly.moving.momenta import resultants
 from nmm.assembly.state import Frames, State
 from nmm.effects.given.steps import Instant
 from nmm.solvers.unchecked import product
@@ -37,7 +38,7 @@ class HalfWay:
         manifold, place, frames = self.model.manifold, self.place, self.place.frames
         every = np.arange(manifold.n_bodies)
         acting = effect.force(place, end)
-        resultant = product(manifold.rigid_modes.T, acting).reshape(-1, 3)[:, :2]
+        resultant = resultants(self.model, acting)[:, :2]
         turned = start.frames.to_body(every, frames.to_global(every, resultant))
         # Against axes a quarter ahead a force does on strains its moment about strained arms.
         ahead = replace(place, frames=Frames(frames.centre, frames.angle + np.pi / 2))

@@ -8,6 +8,7 @@ from integration.plane_vectors import counterclockwise, cross
 from integration.sparse import coo_array, csc_array, csr_array
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
+from nmm.solvers.unchecked import product
 
 
 def rigid_masses(model: Model) -> Floats:
@@ -16,12 +17,20 @@ def rigid_masses(model: Model) -> Floats:
     return np.asarray((modes.T @ (model.mass @ modes)).diagonal().reshape(-1, 3))
 
 
+def resultants(model: Model, force: Floats) -> Floats:
+    """Forces x, y (N) and moments (N m) of forces (n,) on bodies as wholes (B, 3), in their axes.
+
+    Moments are about the centroids of bodies as they were laid.
+    """
+    return product(model.manifold.rigid_modes.T, force).reshape(-1, 3)
+
+
 def rigid_momenta(model: Model, state: State) -> Floats:
     """Momentum x, y (N s) of each body (B, 3) in its axes, and angular momentum (N m s).
 
     About the centroid where it was laid: of bodies that bend by any angle see `own_momenta`.
     """
-    return np.asarray(model.manifold.rigid_modes.T @ (model.mass @ state.velocity)).reshape(-1, 3)
+    return resultants(model, model.mass @ state.velocity)
 
 
 def own_momenta(model: Model, state: State, finite: bool) -> Floats:

@@ -16,6 +16,7 @@ import numpy as np
 from integration.arrays import Floats, Ints
 from integration.contraction import some
 from integration.plane_vectors import counterclockwise, cross
+from nmm.assembly.moving.momenta import resultants
 from nmm.assembly.state import State
 
 if TYPE_CHECKING:
@@ -85,8 +86,8 @@ def rebound(
 
 def _given(model: "Model", compliance: Floats, force: Floats) -> Floats:
     """Acceleration (B,) in m/s2 that forces (n,) give to bodies as a whole."""
-    pull = np.asarray(model.manifold.rigid_modes.T @ force) * compliance
-    return np.asarray(np.hypot(*pull.reshape(-1, 3)[:, :2].T))
+    pull = resultants(model, force) * compliance.reshape(-1, 3)
+    return np.asarray(np.hypot(*pull[:, :2].T))
 
 
 def _crossed(model: "Model") -> Floats:

@@ -6,6 +6,7 @@ import numpy as np
 from scipy.sparse import csc_array, diags_array
 
 from integration.arrays import Floats, Ints
+from nmm.assembly.moving.momenta import resultants
 from nmm.assembly.state import State
 from nmm.stepping.step.anchors import anchor_stiffness, anchors, block_name, manner
 from nmm.stepping.step.stepper import Stepper
@@ -26,7 +27,7 @@ def too_weak(stepper: Stepper) -> bool:
     # Conditions that multipliers hold beside contact leave fewer unknowns, which are not judged.
     if left is None or len(left) != model.manifold.n_unknowns:
         return False
-    push = np.asarray(model.manifold.rigid_modes.T @ left).reshape(-1, 3)
+    push = resultants(model, left)
     return bool((np.hypot(push[:, 0], push[:, 1]) > anchor_stiffness(model) * stepper.size).any())
 
 

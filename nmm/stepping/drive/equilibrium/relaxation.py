@@ -14,7 +14,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.moving.momenta import rigid_masses
+from nmm.assembly.moving.momenta import resultants, rigid_masses
 from nmm.assembly.state import State
 from nmm.effects.base import Instant
 from nmm.integrators.shi import Shi
@@ -233,7 +233,7 @@ def _taken(moving: Stepper, before: State, found: Attempt) -> float:
 def _first_length(model: Model, force: Floats, size: float) -> float:
     """Length (s) of a step in which the most accelerated body moves by `FIRST`."""
     mass = rigid_masses(model)
-    pull = np.asarray(model.manifold.rigid_modes.T @ force).reshape(-1, 3)
+    pull = resultants(model, force)
     fastest = float(np.hypot(*(pull[:, :2] / mass[:, :2]).T).max(initial=0.0))
     return float(np.sqrt(2 * FIRST * size / fastest)) if fastest > 0 else 1.0
 
