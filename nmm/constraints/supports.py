@@ -12,9 +12,10 @@ from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
+from nmm.constraints.declared_supports import declared, lets_turn, sudden_starts
 from nmm.constraints.driven_bodies import DrivenBodies, driven
-from nmm.constraints.imposition import Imposition, Method, support_method
-from nmm.constraints.interface import Interface, nearest
+from nmm.constraints.imposition import Imposition, support_method
+from nmm.constraints.interface import nearest
 from nmm.constraints.laid_springs import (
     exerting_the_same,
     free_where,
@@ -26,7 +27,6 @@ from nmm.constraints.nitsche.volume_lift import sharing
 from nmm.constraints.points_under_stress import laid_at_points
 from nmm.constraints.ties.tied_interfaces import TiedInterfaces
 from nmm.constraints.turned_axes import turning
-from nmm.effects.acting_place import acting_place
 from nmm.effects.base import Instant, Setup
 from nmm.effects.motion.ground import Ground
 from nmm.effects.motion.reactions import Reactions
@@ -36,19 +36,12 @@ from nmm.geometry.tessellation.cover_types import highest_degree
 if TYPE_CHECKING:
     from nmm.effects.change import Change
     from nmm.integrators.base import Integrator
-    from nmm.scene.actions import SupportTable
-
-# Of the size of a body: points of one coordinate.
-SAME_COORDINATE = 1e-6
-# Degree of polynomials that points along edges of blocks integrate exactly.
-BLOCK_ORDER = 4
 
 
 class Supports(TiedInterfaces):
     """All supports of a scene."""
 
     name = "supports"
-    _caution = ""
 
     def __init__(
         self,
@@ -58,10 +51,11 @@ class Supports(TiedInterfaces):
         in_time: bool = False,
         turning: Model | None = None,
         model: Model | None = None,
+        caution: str = "",
     ) -> None:
         held = [_anchored(one, state) for one in _sharing(supports)]
         super().__init__(held, n_unknowns, turning)
-        self._in_time, self._whole = in_time, model
+        self._in_time, self._whole, self._caution = in_time, model, caution
         grounds = [tie.interface.displacement for tie in self.ties]
         self._grounds = [ground for ground in grounds if isinstance(ground, Ground)]
         self._still = in_time and self.steady and len(self._grounds) == len(grounds)
@@ -73,7 +67,7 @@ class Supports(TiedInterfaces):
         size = cover.finest if setup.model.manifold.shared_covers else None
         part = setup.formulation.supports
         method = support_method(setup.model, part, size, highest_degree(cover))
-        interfaces = [_interface(setup, support, method) for support in scene.supports]
+        interfaces = [declared(setup, support, method) for support in scene.supports]
         edges = [i for i, one in enumerate(interfaces) if one.first.normal is not None]
         # At points that are no edge springs, which need no traction.
         found = replace(method, kind="penalty").impose(setup.model, interfaces)
@@ -83,10 +77,9 @@ class Supports(TiedInterfaces):
         if scene.initial_stresses:
             found = laid_at_points(setup, laid_under_stress(setup, found))
         n_unknowns, in_time = setup.model.manifold.n_unknowns, scene.inertia is not None
-        turns = turning(setup) if _lets_turn(setup.model, interfaces) else None
-        made = cls(found, n_unknowns, setup.start, in_time, turns, setup.model)
-        made._caution = _sudden_starts(setup, interfaces)
-        return made
+        turns = turning(setup) if lets_turn(setup.model, interfaces) else None
+        caution = sudden_starts(setup, interfaces)
+        return cls(found, n_unknowns, setup.start, in_time, turns, setup.model, caution)
 
     @property
     def caution(self) -> str:
@@ -258,50 +251,7 @@ def _anchored(tie: Imposition, state: State) -> Imposition:
     return replace(tie, interface=replace(tie.interface, anchor=tie.interface.motion(state)))
 
 
-def _lets_turn(model: Model, interfaces: Sequence[Interface]) -> bool:
-    """Whether a body can rotate although points of it are held.
-
-    It may not where points of different y are held along x, or of different x along y.
-    """
-    size = np.sqrt(model.manifold.body_area)
-    reached, held = (np.zeros(len(size), dtype=bool) for _ in range(2))
-    for axis in (0, 1):
-        along = [one for one in interfaces if one.held[axis] and len(one)]
-        if not along:
-            continue
-        body = np.concatenate([one.first.points.body for one in along])
-        other = np.concatenate([one.first.position[:, 1 - axis] for one in along])
-        low, high = np.full(len(size), np.inf), np.full(len(size), -np.inf)
-        np.minimum.at(low, body, other)
-        np.maximum.at(high, body, other)
-        reached[body] = True
-        held |= high - low > SAME_COORDINATE * size
-    return bool((reached & ~held).any())
-
-
 def _sharing(supports: Sequence[Imposition]) -> list[Imposition]:
     """Return supports whose pressures know of one another."""
     pairs = zip(supports, sharing([s.lift for s in supports]), strict=True)
     return [s if one is None else s.with_lift(one) for s, one in pairs]
-
-
-def _sudden_starts(setup: Setup, interfaces: Sequence[Interface]) -> str:
-    """Tell jumps of the ground, from where the run begins; empty without any."""
-    pairs = zip(setup.scene.supports, interfaces, strict=True)
-    driven = [(s, one) for s, one in pairs if s.motion or s.history or s.field is not None]
-    if setup.scene.inertia is None or setup.start.time > 0 or not driven:
-        return ""
-    from nmm.effects.motion.sudden_starts import sudden_start
-
-    told = (sudden_start(setup, table, one.first, one.displacement) for table, one in driven)
-    return "; ".join(filter(None, told))
-
-
-def _interface(setup: Setup, support: "SupportTable", method: Method) -> Interface:
-    model = setup.model
-    order = BLOCK_ORDER if method.size is None else method.order(model)
-    place = acting_place(setup, "supports", support, order)
-    ground = Ground.of(setup, support, place)
-    held = np.array(("x" in support.fix, "y" in support.fix))
-    area = place.weight * model.thickness
-    return Interface(place, None, area, support.name, held, ground)

@@ -20,26 +20,16 @@ from nmm.assembly.stress_points import StressAt
 from nmm.effects.base import Effect, Instant, Span, StepForce, defines
 from nmm.effects.half_way import HalfWay
 from nmm.errors import SolveError
-from nmm.model.effects_table import OWN
-from nmm.model.planning.named import NamedEffects
+from nmm.model.planning.energies import EnergyPlan
 from nmm.quantity import MemberSegments
 
 if TYPE_CHECKING:
     from nmm.effects.event import Event
     from nmm.effects.view import View
 
-STORES = {
-    "kinetic_energy": ("inertia",),
-    "strain_energy": ("initial stress", "heat"),
-    "contact_energy": ("contact",),
-    "support_energy": ("supports", "bonded interfaces", "artificial joints"),
-}
-"""Effects whose energy is counted with that of bodies, contacts or supports, by columns of the
-history; others have columns to themselves."""
-
 
 @dataclass(frozen=True)
-class Plan(NamedEffects):
+class Plan(EnergyPlan):
     """The effects of a scene; a hook is summed over the effects that define it.
 
     Attributes
@@ -213,13 +203,6 @@ class Plan(NamedEffects):
         for effect in self.having("forget"):
             effect.forget()
 
-    def work(self, before: State, after: State) -> float:
-        """Return the work of all applied forces (J)."""
-        return sum(
-            self.timed(name, partial(effect.work, before, after))
-            for name, effect in self.named("work")
-        )
-
     def segments(self, state: State) -> MemberSegments | None:
         """Return the members of all effects; None without any."""
         parts = [effect.segments(state) for effect in self.having("segments")]
@@ -244,45 +227,6 @@ class Plan(NamedEffects):
         """Return what the rise of bent forces seems to do in a step and does not (J)."""
         bent = [one for one in self.having("work_correction") if one.nonlinear]
         return sum(one.work_correction(before, after, increment, span) for one in bent)
-
-    def losses(self, before: State, after: State) -> dict[str, float]:
-        """Return what each effect took for good in an accepted step (J)."""
-        return {
-            name: self.timed(name, partial(one.loss, before, after))
-            for name, one in self.named("loss")
-        }
-
-    def first_work(self, before: State, after: State) -> float:
-        """Return the work (J) that `work` lacks in the first step of statics."""
-        return sum(effect.first_work(before, after) for effect in self.having("first_work"))
-
-    def energy(self, name: str, state: State) -> float:
-        """Return the energy of one effect (J), zero when the scene does not name it."""
-        effect = self.effects.get(name)
-        return 0.0 if effect is None else effect.energy(state)
-
-    def energies(self, state: State) -> dict[str, float]:
-        """Return the energy (J) that effects store, by its columns of the history."""
-        return {
-            column: sum(
-                [self.timed(name, partial(one.energy, state)) for name, one in effects], start=0.0
-            )
-            for column, effects in self._stores
-        }
-
-    @cached_property
-    def _stores(self) -> list[tuple[str, list[tuple[str, Effect]]]]:
-        """Effects that store energy with their names, by the columns of it."""
-        shared = {
-            column: [(name, self.effects[name]) for name in names if name in self.effects]
-            for column, names in STORES.items()
-        }
-        own = {
-            f"energy:{name.removeprefix(OWN)}": [(name, effect)]
-            for name, effect in self.named("energy")
-            if not any(name in names for names in STORES.values())
-        }
-        return [*shared.items(), *own.items()]
 
     @cached_property
     def tellers(self) -> list[tuple[str, Effect]]:

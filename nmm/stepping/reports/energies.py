@@ -4,7 +4,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from nmm.assembly.state import State
-from nmm.model.planning.plan import STORES
+from nmm.model.planning.energies import STORES
 from nmm.model.planning.pressures import lifted_energy
 
 if TYPE_CHECKING:

@@ -1,7 +1,7 @@
 """The energies of a run, booked step by step, and how far they are from balance."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from integration.arrays import Floats
@@ -10,6 +10,7 @@ from nmm.effects.base import Instant
 from nmm.frozen import with_parts
 from nmm.stepping.reports.accounts import EnergyRise, EnergySources
 from nmm.stepping.reports.energies import standing, stored, untouched
+from nmm.stepping.reports.energy_totals import EnergyTotals
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
@@ -19,88 +20,13 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Ledger:
-    """Totals over accepted steps (J).
+class Ledger(EnergyTotals):
+    """Totals over accepted steps that the next step, or a change of what is solved, adds to.
 
     In statics nothing acts before the first step: what acts at its start (weight, initial stress,
     loads and displacements of supports that are not scaled) grows from nothing in it, and so does
     its work.
-
-    Attributes
-    ----------
-    work, friction_loss, material_loss
-        Work of loads, weight and driven supports; what friction, dashpots and breaking bonds took;
-        and what material points did, which flow or suffer damage.
-    friction_first, friction_gift
-        What friction and breaking bonds took in the first step; and what they gave in the steps in
-        which they took less than nothing.
-    material_gift
-        What material points gave in the steps in which they took less than nothing: stresses that
-        turn about within a step do work on what flows at its end.
-    damping_loss
-        What dampers took, by effect.
-    effect_loss
-        What effects took for good, by name.
-    integration_loss, contact_loss
-        What time integration took, but for contact; and what springs of contact lost beyond
-        friction: both are part of what is missing in the balance, and negative where energy came.
-    energies
-        Stored now, by name.
-    stored_first
-        Energy at the start, before any contact.
-    throughput
-        Largest work, stored or lost energy so far.
-    steps
-        Number of accepted steps.
-    in_step, in_run
-        Largest rise of stored energy and losses less work, in one step and over the run.
-    given
-        What the integrator gave in the steps in which it gave some.
-    change_energy
-        What changes of what is solved have added to the stored energies, the energy shed in the
-        first step of statics after one included: with all that is new acting at once, more work is
-        done than a slow change needs.
-    changed_by
-        The same by the effect that asked for the changes; "" is a stage, or rest that was sought.
-    settling
-        Whether that step is the next one.
-    unheld
-        (n,) what the last change left out of balance (N), which nothing holds while that step is
-        solved; None where that is not known.
-    rested
-        Instant under whose loads and displacements loose blocks were last brought to rest, until
-        the next step is solved; None: it begins under those of its start.
-    cause
-        What asked for the last change.
-    lowest, last
-        Where energy from nowhere was least, and after the last step.
     """
-
-    work: float = 0.0
-    friction_loss: float = 0.0
-    friction_first: float = 0.0
-    friction_gift: float = 0.0
-    material_loss: float = 0.0
-    material_gift: float = 0.0
-    damping_loss: Mapping[str, float] = field(default_factory=dict)
-    effect_loss: Mapping[str, float] = field(default_factory=dict)
-    integration_loss: float = 0.0
-    contact_loss: float = 0.0
-    energies: Mapping[str, float] = field(default_factory=dict)
-    stored_first: float = 0.0
-    throughput: float = 0.0
-    steps: int = 0
-    in_step: EnergyRise = field(default_factory=EnergyRise)
-    in_run: EnergyRise = field(default_factory=EnergyRise)
-    given: float = 0.0
-    change_energy: float = 0.0
-    changed_by: Mapping[str, float] = field(default_factory=dict)
-    settling: bool = False
-    unheld: Floats | None = None
-    rested: Instant | None = None
-    cause: str = ""
-    lowest: EnergySources = field(default_factory=EnergySources)
-    last: EnergySources = field(default_factory=EnergySources)
 
     def booked(
         self,
@@ -139,7 +65,7 @@ class Ledger:
             rested=None,
         )
         if self.settling and plan.inertia is None:
-            made, shed = found._made - self._made, self._shed(attempt)
+            made, shed = found.made - self.made, self._shed(attempt)
             found = found._changed_by(made if anew else shed + min(made - shed, 0.0), self.cause)
         if attempt.booked is not None:
             found = found._lost_in_time(attempt.booked, earlier, loss)
@@ -239,44 +165,6 @@ class Ledger:
             contact_loss=self.contact_loss + step.contact_loss(gain["contact_energy"], loss),
         )
 
-    @property
-    def in_store(self) -> float:
-        """Energy (J) stored now."""
-        return sum(self.energies.values())
-
-    @property
-    def row(self) -> Mapping[str, float]:
-        """What the history says of a step."""
-        damping = {f"damping_loss:{name}": loss for name, loss in self.damping_loss.items()}
-        lost = {f"loss:{name}": loss for name, loss in self.effect_loss.items()}
-        return {**self.energies, "external_work": self.work, **damping, **lost}
-
-    @property
-    def balance(self) -> float:
-        """Return (work - gain of stored energy - lost) over the largest of them in the run.
-
-        Lost is what friction, softening, damping and flowing material took.
-        """
-        return -self._made / self.throughput if self.throughput else 0.0
-
-    def freed(self, effect: str) -> float:
-        """Energy (J) that work and stores say went where ``effect`` changed what is solved."""
-        apart = sum(added for cause, added in self.changed_by.items() if cause != effect)
-        gained = self.in_store - self.stored_first - apart
-        others = self.dissipated - self.effect_loss.get(effect, 0.0)
-        return self.work - gained - others - self.integration_loss - self.contact_loss
-
-    @property
-    def _made(self) -> float:
-        gained = self.in_store - self.stored_first - self.change_energy
-        return gained + self.dissipated - self.work
-
-    @property
-    def dissipated(self) -> float:
-        """Energy (J) that friction, damping, breaking and flowing material took."""
-        by_effects = (*self.damping_loss.values(), *self.effect_loss.values())
-        return self.friction_loss + self.material_loss + sum(by_effects)
-
     def weighed(self, time: float, audited: bool) -> "Ledger":
         """Return the totals with the size of the energies, and how much came from nowhere.
 
@@ -288,9 +176,7 @@ class Ledger:
             self.throughput, abs(self.work), abs(total), abs(self.stored_first), abs(lost)
         )
         supports = self.energies.get("support_energy", 0.0)
-        now = EnergySources(
-            self._made, self.given, -self.contact_loss, self.friction_loss, supports
-        )
+        now = EnergySources(self.made, self.given, -self.contact_loss, self.friction_loss, supports)
         if not audited:
             return with_parts(self, throughput=largest, last=now, lowest=now)
         return with_parts(

@@ -63,6 +63,6 @@ def test_a_run_after_it_compiles_no_loop_of_the_solution_again(tmp_path):
         "nmm.contact.iteration.newton.compiled_newton",
         "nmm.contact.islands.warm_start",
         "nmm.contact.islands.partition",
-        "nmm.contact.problem.matrix_pattern",
+        "nmm.contact.problem.pattern_kernels",
         "nmm.contact.problem.answer_kernel",
     }
