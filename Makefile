@@ -4,6 +4,9 @@
 PYTHON ?=
 PY := .venv/bin/python
 
+# Tests start Python a hundred times and more: what it compiles is kept.
+unexport PYTHONDONTWRITEBYTECODE
+
 .DEFAULT_GOAL := help
 .PHONY: help demo test lint verify manual bench report docs clean
 

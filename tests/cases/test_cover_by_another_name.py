@@ -1,5 +1,7 @@
 """What a cover gets is by its properties: under another name every digit is the same."""
 
+from itertools import product
+
 import pytest
 
 import nmm
@@ -45,8 +47,21 @@ def top(kind: str, supports: str) -> tuple[float, float]:
     return done.history["monitor:top:uy"][-1], done.history["reaction:below:y"][-1]
 
 
-@pytest.mark.parametrize("supports", ["nitsche", "lagrange"])
-@pytest.mark.parametrize("kind", NAMES)
+QUICK = {
+    ("triangles", "nitsche"),
+    ("quads", "lagrange"),
+    ("bspline", "nitsche"),
+    ("mls", "lagrange"),
+}
+
+
+@pytest.mark.parametrize(
+    ("kind", "supports"),
+    [
+        pytest.param(*pair, marks=() if pair in QUICK else pytest.mark.slow)
+        for pair in product(NAMES, ("nitsche", "lagrange"))
+    ],
+)
 def test_a_cover_by_another_name_gives_the_same_digits(kind: str, supports: str) -> None:
     own = f"{__name__}:{NAMES[kind].__name__}"
     assert top(own, supports) == top(kind, supports)

@@ -43,6 +43,7 @@ def test_triangles_that_part_come_to_the_handbook_from_above(cases: ModuleType) 
         assert load(cases, cases.triangles(f"{side} mm")) == pytest.approx(face, rel=0.03)
 
 
+@pytest.mark.slow  # half a minute
 def test_a_large_softening_beam_led_by_its_opening_passes_its_peak(cases: ModuleType) -> None:
     # A straight cohesive plane at midspan carries 84.26; cracks between blocks wind, and smaller
     # beams carry 13 to 20 % more. Below the plane none can be, a third above it is no such crack.

@@ -53,7 +53,7 @@ class Mine(Penalty):
 def share():
     for name, choices in SHARE.items():
         for parts in choices:
-            yield from islice(chosen_cases([name], [0], parts=parts), 2)
+            yield from islice(chosen_cases([name], [0], parts=parts), 1)
 
 
 @pytest.mark.parametrize(

@@ -13,8 +13,7 @@ from nmm.testing.resumed.killing import apart, check_same_files
 RUN = "import sys, nmm; nmm.run(nmm.read_scene(sys.argv[1]), out=sys.argv[2])"
 
 # Seed of hashes and threads, of the linear algebra and of numba.
-PLAIN = ("0", "1")
-OTHERS = (("0", "1"), ("4242", "4"))
+PLAIN, OTHER = ("0", "1"), ("4242", "4")
 
 HEAD = """
 plane = "strain"
@@ -90,7 +89,7 @@ type = "{solver}"
 """
 
 SCENES = {
-    "pile": 'duration = "30 ms"' + HEAD + PILE.format(blocks=30, enforcement="penalty"),
+    "pile": 'duration = "16 ms"' + HEAD + PILE.format(blocks=30, enforcement="penalty"),
     "mesh_triangles": HEAD + MESH.format(cover="triangles", size=0.21, degree=1, solver="auto"),
 }
 SLOW = {
@@ -121,6 +120,4 @@ def test_a_run_is_the_same_bytes_for_any_hash_seed_and_threads(tmp_path, name):
     scene = tmp_path / "scene.toml"
     scene.write_text((SCENES | SLOW)[name])
     first = write(tmp_path / "first", scene, *PLAIN)
-    for seed, threads in OTHERS:
-        folder = tmp_path / f"hash_seed_{seed}_threads_{threads}"
-        check_same_files(first, write(folder, scene, seed, threads))
+    check_same_files(first, write(tmp_path / "other", scene, *OTHER))

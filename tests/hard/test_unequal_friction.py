@@ -32,7 +32,7 @@ def faces(kinds, pairs):
 
 
 @pytest.mark.parametrize("enforcement", METHODS)
-@pytest.mark.parametrize("place", [(0.0, 0.0), (1e5, -3e5)])
+@pytest.mark.parametrize("place", [pytest.param((0.0, 0.0), marks=pytest.mark.slow), (1e5, -3e5)])
 def test_a_ladder_is_drawn_from_its_wall_at_the_load_at_which_both_its_ends_slide(
     enforcement, place
 ):

@@ -103,7 +103,7 @@ def joint_set(name: str, dip: float) -> str:
 
 
 SLOPE = text.scene(
-    opening(duration=0.06),
+    opening(duration=0.04),
     [
         ROCK,
         FALLS,
@@ -549,7 +549,7 @@ def growing(stages: str = "", duration: float | None = None) -> str:
 
 
 GROWING_STAGES = (
-    stage("in time", "duration = 4e-3")
+    stage("in time", "duration = 1.5e-3")
     + stage("at rest", "loads = []")
     + stage("in time again", 'duration = 5e-4\nloads = ["pull"]')
 )
@@ -605,6 +605,10 @@ SCENES = {
     "growing in time": growing(duration=1e-3),
     "growing in stages": growing(GROWING_STAGES),
 }
+
+
+CHECKPOINT = "checkpoint = { every_steps = 4 }"
+"""A line for the ``[output]`` of a scene."""
 
 
 def scene_of(name: str, checkpoint: str = "") -> str:

@@ -97,8 +97,8 @@ QUADS = '[formulation.cover]\ntype = "quads"\nsize = 0.3\ndegree = 2\n'
     [
         (TRIANGLES, "lagrange", (0, 0)),
         (TRIANGLES, "nitsche", (1e5, -3e4)),
-        (QUADS, "nitsche", (0, 0)),
-        (TRIANGLES, "spring", (1e5, -3e4)),
+        pytest.param(QUADS, "nitsche", (0, 0), marks=pytest.mark.slow),
+        pytest.param(TRIANGLES, "spring", (1e5, -3e4), marks=pytest.mark.slow),
         (QUADS, "spring", (0, 0)),
     ],
 )

@@ -102,14 +102,16 @@ def test_rayleigh_through_two_ratios_has_the_closed_coefficients():
 
 
 @pytest.mark.parametrize(
-    "damping",
+    ("damping", "rule"),
     [
-        f"[damping]\nmass = {2 * 0.05 * OMEGA}",
-        f"[damping]\nstiffness = {2 * 0.05 / OMEGA}",
-        f"[damping]\nratios = [0.05, 0.02]\nfrequencies = [{1 / PERIOD}, {3 / PERIOD}]",
+        (f"[damping]\nmass = {2 * 0.05 * OMEGA}", "generalized_alpha"),
+        (f"[damping]\nstiffness = {2 * 0.05 / OMEGA}", "generalized_alpha"),
+        (
+            f"[damping]\nratios = [0.05, 0.02]\nfrequencies = [{1 / PERIOD}, {3 / PERIOD}]",
+            "newmark",
+        ),
     ],
 )
-@pytest.mark.parametrize("rule", ["newmark", "generalized_alpha"])
 def test_free_vibration_at_five_per_cent_falls_by_the_closed_ratio_a_cycle(damping, rule):
     values, run = swing(damping, 3.2, steps_a_period=100, rule=rule)
     peaks = extremes(values)

@@ -81,8 +81,14 @@ add = ["late"]
 WEIGHT = 10 * (2 * 2000 + (4 + 2) * 4000)
 
 
-def test_pieces_of_a_stage_bear_the_weight_of_the_next_one():
-    found = nmm.run(nmm.parse_scene(CRUSHED))
+@pytest.fixture(scope="module")
+def crushed():
+    """The run of pillars that are crushed in a stage."""
+    return nmm.run(nmm.parse_scene(CRUSHED))
+
+
+def test_pieces_of_a_stage_bear_the_weight_of_the_next_one(crushed):
+    found = crushed
     assert found.summary.status == "converged", found.summary.sentence
     bodies, load = found.history["splitting:bodies"], found.history["reaction:held:y"]
     assert bodies[0] == 4
@@ -108,8 +114,8 @@ def test_displacements_of_pieces_count_from_a_stage_whatever_is_stored(tmp_path)
     assert way == pytest.approx(other, rel=1e-5)
 
 
-def test_what_happens_is_told_in_the_order_of_time():
-    told = nmm.run(nmm.parse_scene(CRUSHED)).summary.changes
+def test_what_happens_is_told_in_the_order_of_time(crushed):
+    told = crushed.summary.changes
     assert told[0].startswith("stage loaded at 1:")
     assert all("split into" in one for one in told[1:-1])
     assert told[-1].startswith("stage unloaded at 2: 1 blocks added")
@@ -253,7 +259,7 @@ def test_what_a_stage_changes_is_not_freed_by_a_crack_that_stays(keys, more, fir
     assert abs(run.summary.freed_energy) < share * changed
 
 
-@pytest.mark.parametrize("share", [0.5, 0.2, 0.05])
+@pytest.mark.parametrize("share", [0.5, pytest.param(0.2, marks=pytest.mark.slow), 0.05])
 def test_a_cracked_plate_whose_loose_side_goes_finds_its_equilibrium_under_any_load(share):
     """Its last corrections move by 1e-12 m: what dependent functions leave of them is rounding."""
     text = NOTCHED.format(notch=STRAIGHT, growth=1e-9, times="").replace("100.0", "1e9")

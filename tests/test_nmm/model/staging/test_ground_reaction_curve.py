@@ -70,7 +70,7 @@ def scene():
 def test_the_wall_comes_in_by_the_closed_form_at_each_share_that_is_released():
     table = {
         "cover": {"type": "quads", "size": 0.25, "degree": 2},
-        "loading": {"increment": 0.1},
+        "loading": {"increment": 0.25},
     }
     run = nmm.run(nmm.parse_scene(scene()), nmm.Formulation.model_validate(table))
     assert run.summary.status == "converged", run.summary.sentence

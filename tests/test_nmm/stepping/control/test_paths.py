@@ -40,13 +40,15 @@ def test_steps_that_each_dissipate_the_same_go_round_the_same_path(ratio):
 def test_links_that_are_driven_soften_by_what_each_step_takes():
     """One softens beside one that holds: the force of the springs that drive both is no load."""
     strength, stiff, opens = 100.0, 5e6, 2 * 0.06 / 1e3  # N, N/m, m at which nothing is left
-    links = bundle((strength, 200.0), PARTS, (stiff, stiff))
+    energy = 1e-3
+    parts = f'type = "dissipation"\nenergy = {energy}\n'
+    links = bundle((strength, 200.0), parts, (stiff, stiff))
     soft = '[interfaces.i0]\nlaw = "linear_softening"\nfracture_energy = 0.06\n'
     run = nmm.run(parse_scene(links.replace("[interfaces.i0]\n", soft)))
     factor, force, lost = run.history["load_factor"], pull(run, 2), run.history["friction_loss"]
     whole = run.history["broken"] == 0
     # A line that unloads to its origin loses strength * w / 2; supports give by 3e-4 of a link.
-    width = np.arange(whole.sum() - 1) * 2e-4 * 2 / strength
+    width = np.arange(whole.sum() - 1) * energy * 2 / strength
     way = width + strength * (1 - width / opens) / stiff
     held = strength * (1 - width / opens) + stiff * way
     assert force[whole][:-1] == pytest.approx(held, rel=1e-4)

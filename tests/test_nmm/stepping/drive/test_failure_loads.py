@@ -89,8 +89,10 @@ def wedge(unit):
 STRUCTURES = [slides, topples, breaks, wedge]
 
 
-@pytest.mark.parametrize(("backwards", "unit"), [(False, 1.0), (True, 1e-3)])
-@pytest.mark.parametrize("share", [1.7, 0.21, 0.042])
+@pytest.mark.parametrize(
+    ("share", "backwards", "unit"),
+    [(1.7, False, 1.0), (1.7, True, 1e-3), (0.21, True, 1e-3), (0.042, False, 1.0)],
+)
 @pytest.mark.parametrize("structure", STRUCTURES)
 def test_a_failure_load_is_the_same_with_any_increment(structure, share, backwards, unit):
     text, blocks, right = structure(unit)

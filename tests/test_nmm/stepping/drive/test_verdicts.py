@@ -149,9 +149,9 @@ def test_a_toe_on_the_flat_beside_a_flush_block_is_at_rest_at_once(cover):
 
 
 # Of two bodies the slope and the flat are held as well, but their seam ends where the toe stands.
-@pytest.mark.parametrize("mirrored", [False, True])
 @pytest.mark.parametrize(
-    ("friction", "status"), [(0.082, "collapsed"), (0.085, "converged"), (0.3, "converged")]
+    ("friction", "status", "mirrored"),
+    [(0.082, "collapsed", True), (0.085, "converged", True), (0.3, "converged", False)],
 )
 def test_a_toe_in_a_kink_of_two_bodies_stands_as_soon_as_friction_may_hold_the_block(
     friction, status, mirrored

@@ -20,7 +20,15 @@ def whole(tmp_path_factory):
     return nmm.run(nmm.parse_scene(INCLINE, "scene"), out=folder)
 
 
-@pytest.mark.parametrize(("what", "count"), [("step", 0), ("step", 2), ("write", 7), ("write", 14)])
+@pytest.mark.parametrize(
+    ("what", "count"),
+    [
+        ("step", 2),
+        ("write", 7),
+        pytest.param("step", 0, marks=pytest.mark.slow),
+        pytest.param("write", 14, marks=pytest.mark.slow),
+    ],
+)
 def test_a_killed_search_goes_on_to_the_same_bytes(what, count, whole, tmp_path):
     (tmp_path / "scene.toml").write_text(INCLINE)
     again = killed_and_gone_on(tmp_path / "scene.toml", tmp_path / "half", what, count)

@@ -114,7 +114,7 @@ def test_a_collision_of_spinning_bodies_keeps_energy_and_angular_momentum(step):
     assert np.ptp(spins) < 1e-11 * abs(spins[0])
 
 
-@pytest.mark.parametrize("step", [0.002, 0.01])
+@pytest.mark.parametrize("step", [pytest.param(0.002, marks=pytest.mark.slow), 0.01])
 @pytest.mark.parametrize(
     ("scene", "energy", "spin"),
     # m v^2 / 2, and the turn about an own centre that flies through the origin, m^2 omega / 6.

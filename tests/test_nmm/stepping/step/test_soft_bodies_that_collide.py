@@ -71,7 +71,9 @@ def test_soft_bodies_that_collide_do_not_know_which_is_listed_first(enforcement)
     head, flying, tail = SCENE.split("[[blocks]]")
     resting, rest = tail.split("[[initial", 1)
     anew = "[[blocks]]".join((head, resting, flying)) + "[[initial" + rest
-    runs = [collision(text, 10, cover, more) for text in (SCENE, anew)]
+    # A wave goes to and fro through a square in 0.055 s: half way there they are pressed most.
+    shorter = (text.replace("0.15", "0.05") for text in (SCENE, anew))
+    runs = [collision(text, 10, cover, more) for text in shorter]
     for kind in ENERGIES:
         one, other = (run.history[kind] for run in runs)
         # Sides that differ make 1e-4 of it. What is left grows from rounding by and by: functions
