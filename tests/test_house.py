@@ -3,7 +3,7 @@
 import ast
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -95,31 +95,39 @@ def module_name(path: Path, root: Path) -> str:
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
-def without_types(node: ast.AST) -> Iterator[ast.AST]:
-    """All nodes but those that only type checkers read."""
-    for child in ast.iter_child_nodes(node):
-        if isinstance(child, ast.If) and "TYPE_CHECKING" in ast.dump(child.test):
-            continue
-        yield child
-        yield from without_types(child)
+def statements(body: Iterable[ast.AST], typed: bool = False) -> Iterator[tuple[ast.AST, bool]]:
+    """All statements, and whether only type checkers read them."""
+    for node in body:
+        for_types = typed or (isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test))
+        yield node, for_types
+        for part in ("body", "orelse", "finalbody", "handlers", "cases"):
+            yield from statements(getattr(node, part, ()), for_types)
 
 
-def imports_of(path: Path, root: Path, types: bool = True) -> Iterator[Import]:
-    importer = module_name(path, root)
+@cache
+def written_imports(path: Path, root: Path) -> tuple[tuple[Import, bool], ...]:
+    """Imports of a file, and whether only type checkers read them."""
+    importer, found = module_name(path, root), []
     package = importer if path.name == "__init__.py" else importer.rpartition(".")[0]
-    tree = ast.parse(path.read_text(), filename=str(path))
-    for node in ast.walk(tree) if types else without_types(tree):
-        place = f"{path.relative_to(root)}:{getattr(node, 'lineno', 0)}"
+    for node, for_types in statements(ast.parse(path.read_text(), filename=str(path)).body):
         if isinstance(node, ast.Import):
-            for alias in node.names:
-                yield Import(importer, alias.name, place)
+            names = [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
             base = node.module or ""
             if node.level:
                 above = package.split(".")[: len(package.split(".")) - node.level + 1]
                 base = ".".join([*above, *filter(None, [base])])
-            for alias in node.names:
-                yield Import(importer, f"{base}.{alias.name}", place)
+            names = [f"{base}.{alias.name}" for alias in node.names]
+        else:
+            continue
+        place = f"{path.relative_to(root)}:{node.lineno}"
+        found += [(Import(importer, name, place), for_types) for name in names]
+    return tuple(found)
+
+
+def imports_of(path: Path, root: Path, types: bool = True) -> Iterator[Import]:
+    """Imports of a file, those for ``types`` alone among them or not."""
+    return (found for found, for_types in written_imports(path, root) if types or not for_types)
 
 
 @cache
