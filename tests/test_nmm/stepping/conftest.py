@@ -1,4 +1,4 @@
-"""Whole runs that those which are stopped, or drop what they keep for speed, are compared with."""
+"""Whole runs that those which are stopped and gone on with are compared with."""
 
 from functools import cache
 

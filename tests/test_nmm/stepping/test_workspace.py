@@ -44,10 +44,8 @@ def way(run):
 
 
 @pytest.mark.parametrize("name", scenes.SCENES)
-def test_a_workspace_dropped_after_every_step_changes_no_digit_that_counts(
-    name, monkeypatch, whole
-):
-    kept, _ = whole(scenes.scene_of(name, scenes.CHECKPOINT))
+def test_a_workspace_dropped_after_every_step_changes_no_digit_that_counts(name, monkeypatch):
+    kept = nmm.run(nmm.parse_scene(scenes.scene_of(name), name))
     monkeypatch.setattr(Stepper, "accept", dropping)
     dropped = nmm.run(nmm.parse_scene(scenes.scene_of(name), name))
     assert dropped.summary.steps == kept.summary.steps > 5
