@@ -10,7 +10,7 @@ import numpy as np
 from integration import gauss
 from integration.arrays import Floats, Ints
 from integration.polygons import Polygons
-from integration.triangulation import triangle_areas, triangulate
+from integration.triangulation import triangle_areas, triangulate, triangulate_alike
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,17 +39,19 @@ class PointRule:
         return out.reshape(number, *values.shape[1:])
 
 
-def polygon_rule(polygons: Polygons, order: int) -> PointRule:
+def polygon_rule(polygons: Polygons, order: int, alike: bool = False) -> PointRule:
     """Points inside the polygons and positive weights, exact to degree ``order``.
 
     Triangles of each polygon carry symmetric Gauss rules. A polygon of zero area has no points.
+    Where they are ``alike`` a polygon, turned or mirrored, has its points turned or mirrored, for
+    twice as many of them on a quadrilateral: what no rule integrates exactly is then the same.
 
     Raises
     ------
     ValueError
         A polygon that crosses itself or its holes.
     """
-    triangles, owner = triangulate(polygons)
+    triangles, owner = (triangulate_alike if alike else triangulate)(polygons)
     barycentric, weights = gauss.triangle(max(order, 0))
     q = len(weights)
     return PointRule(

@@ -36,6 +36,36 @@ def triangulate(polygons: Polygons) -> tuple[Floats, Ints]:
     return fans, owner
 
 
+def triangulate_alike(polygons: Polygons) -> tuple[Floats, Ints]:
+    """Triangles as those of `triangulate`, turned or mirrored where the polygon is.
+
+    A ring of four and more vertices seen whole from its centroid, as every convex one, is cut into
+    a fan about that point, one triangle an edge; the others are cut as `triangulate` does.
+
+    Raises
+    ------
+    ValueError
+        A polygon that crosses itself or its holes.
+    """
+    single = np.diff(polygons.polygon_offsets) == 1
+    many = np.bincount(polygons.polygon_of_point, minlength=len(polygons)) > 3
+    chosen = np.flatnonzero(single & many & (polygons.areas != 0.0))
+    own = polygons.take(chosen)
+    owner = own.polygon_of_point
+    triangles = np.stack([own.centroids[owner], own.points, own.points[own.next_point]], axis=1)
+    clockwise = own.ring_areas[owner] < 0
+    triangles[clockwise] = triangles[clockwise][:, [0, 2, 1]]
+    area = triangle_areas(triangles)
+    seen = np.bincount(owner[area < 0], minlength=len(own)) == 0
+    keep = seen[owner] & (area > 0)
+    rest = np.setdiff1d(np.arange(len(polygons)), chosen[seen])
+    others, other_owner = triangulate(polygons.take(rest))
+    found = np.concatenate([triangles[keep], others])
+    of = np.concatenate([chosen[owner[keep]], rest[other_owner]])
+    order = np.argsort(of, kind="stable")
+    return found[order], of[order]
+
+
 def triangle_areas(triangles: Floats) -> Floats:
     """Signed area (T,) of triangles (T, 3, 2), positive when counter-clockwise."""
     (x1, y1), (x2, y2) = (

@@ -16,6 +16,7 @@ from integration.sparse import csc_array
 from nmm.assembly.kept import KeptOfArray
 from nmm.assembly.laws_at_points import INITIAL, STRESS, SWELLING, LawsAtPoints
 from nmm.assembly.stress_points import StressPoints, nearest
+from nmm.assembly.unresisted_strains import resisting
 from nmm.materials.base import History, Law, Response
 from nmm.solvers.unchecked import product
 
@@ -109,7 +110,7 @@ class Matter(LawsAtPoints):
     def stiffness(self, tangent: Floats, symmetric: bool = True) -> csc_array:
         """Return the tangent stiffness (n, n) of tangents (Q, 3, 3), or its symmetric part.
 
-        It is the same object where matter is elastic.
+        It is the same object where matter is elastic, and resists all strains (`resisting`).
         """
         if tangent is self.elastic:
             return self.elastic_stiffness
@@ -120,6 +121,7 @@ class Matter(LawsAtPoints):
         elastic = self.elastic[: len(one)]
         if np.abs(one - elastic).max() <= ROUNDED_TANGENT * np.abs(elastic).max():
             return self.elastic_stiffness
+        one = resisting(one, elastic)
         return self._stiffness(np.broadcast_to(one, tangent.shape), symmetric)
 
     @cached_property

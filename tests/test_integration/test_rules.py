@@ -60,6 +60,34 @@ def test_no_rule_depends_on_the_vertex_a_ring_begins_with(turn):
     assert [integral(begin) for begin in range(5)] == pytest.approx([integral(0)] * 5, rel=1e-14)
 
 
+@pytest.mark.parametrize("turn", [0.0, 0.4])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_alike_points_of_images_are_images(turn, sign):
+    c, s = np.cos(turn), np.sin(turn)
+    ring = np.array([[0, 0], [1, 0], [1, 0.8], [0.4, 1.1], [0, 0.8]])
+    by = np.array([[c, s], [-s, c]]) * [sign, 1]
+    rules = [
+        polygon_rule(Polygons.from_vertices([one]), 2, alike=True) for one in (ring, ring @ by)
+    ]
+    away = np.abs((rules[0].points @ by)[:, None] - rules[1].points).max(axis=2)
+    # coordinates are of order one: points are the same to a few roundings
+    assert away.min(axis=1).max() < 1e-14
+    np.testing.assert_allclose(rules[1].weights[away.argmin(axis=1)], rules[0].weights, rtol=1e-13)
+
+
+@pytest.mark.parametrize("order", [0, 2, 7])
+def test_alike_rule_is_exact_to_its_order_inside(assorted, order):
+    rule = polygon_rule(assorted, order, alike=True)
+    assert (rule.weights > 0).all()
+    assert (np.diff(rule.owner) >= 0).all()
+    assert shapely.contains_xy(assorted.to_shapely()[rule.owner], rule.points).all()
+    values = evaluate((rule.points - 1.5) / 2.5, order)
+    expected = moments(assorted, order, origin=(1.5, 1.5), scale=2.5)
+    # scaled monomials are at most one: errors are relative to the area
+    found = rule.integrate(values, len(assorted))
+    np.testing.assert_allclose(found, expected, rtol=0, atol=2e-13)
+
+
 def test_triangles_tile_the_polygons(assorted):
     triangles, owner = triangulate(assorted)
     area = triangle_areas(triangles)

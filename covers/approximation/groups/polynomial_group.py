@@ -101,7 +101,7 @@ class PolynomialGroup(ElementGroup):
         """See `ElementGroup.gradient_rule`: one point where gradients are constant, else Gauss."""
         own = polygons.take(self.elements)
         if self.degree > 1:
-            return polygon_rule(own, 2 * (self.degree - 1))
+            return polygon_rule(own, 2 * (self.degree - 1), alike=True)
         return PointRule(own.centroids, own.areas, np.arange(len(own)))
 
     @cached_property

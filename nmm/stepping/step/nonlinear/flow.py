@@ -33,11 +33,14 @@ def flow(elastic: csc_array | None, line: Linearisation, way: Floats, softens: b
     )
 
 
-def mechanism(elastic: csc_array, line: Linearisation, now: Iterate, solve: Solve) -> str:
+def mechanism(
+    elastic: csc_array, line: Linearisation, now: Iterate, solve: Solve, size: float
+) -> str:
     """Say that matter yields all along a motion; empty where none is found.
 
     With traces of its ``elastic`` stiffness besides, one twice the other, matter moves by what it
-    does not resist once and half of it.
+    does not resist once and half of it: further than the ``size`` of the domain (m), beside
+    contact, is no solution, but such a motion.
     """
     moved = []
     for trace in (TRACE * elastic, 2 * TRACE * elastic):
@@ -45,7 +48,8 @@ def mechanism(elastic: csc_array, line: Linearisation, now: Iterate, solve: Solv
         moved.append(solve(replace(line, stiffness=line.stiffness + trace, force=force), None)[1])
     way = moved[0].increment - moved[1].increment
     left, whole = (float(way @ product(matrix, way)) for matrix in (line.stiffness, elastic))
-    if not all(one.converged for one in moved) or left >= TRACE * whole:
+    found = all(one.converged or one.motion > size for one in moved)
+    if not found or left >= TRACE * whole:
         return ""
     return (
         f"matter yields all along a motion, against which less than {TRACE:.0e} of its elastic "

@@ -36,6 +36,8 @@ class InternalForces:
         (n, n) elastic stiffness of matter.
     symmetric
         Whether tangents are.
+    size
+        Diagonal of the domain (m): matter that moves as far holds by a trace of stiffness.
     flows, softens
         Whether matter may flow, and lose strength as it does.
     searches
@@ -74,6 +76,8 @@ class InternalForces:
         self._effects = EffectForces(current, state, end, span, kinematics, symmetrised)
         self.elastic, self.start = self._matter.elastic, self._matter.start
         self.scale = current.model.force_scale
+        points = current.model.manifold.elements.points
+        self.size = float(np.hypot(*np.ptp(points, axis=0)))
 
     def at(
         self, increment: Floats, before: Iterate | None = None, after: State | None = None

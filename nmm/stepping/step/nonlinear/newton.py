@@ -46,11 +46,13 @@ def newton(
         equations, found = solve(line, found)
         passes += found.passes
         found = with_parts(found, passes=passes, imbalances=tuple(imbalances))
-        if not found.converged and not _goes_on(found):
-            flows = flow(elastic, line, way, softens)
-            yields = "" if flows or elastic is None else mechanism(elastic, line, now, solve)
+        lost = not found.converged and not _goes_on(found)
+        flows = flow(elastic, line, way, softens) if lost else ""
+        if elastic is not None and not flows and (lost or found.motion > inner.size):
+            yields = mechanism(elastic, line, now, solve, inner.size)
             if yields:
-                return equations, replace(found, sentence=yields, singular=True, yields=True)
+                return equations, _mechanism(found, state, yields)
+        if lost:
             return equations, _failed(found, found.sentence, flows)
         then = inner.at(found.increment, now, found.state)
         imbalances.append(inner.imbalance(now, then, scale, equations.force, found.missed))
@@ -70,6 +72,12 @@ def _accepted(found: Attempt, then: Iterate) -> Attempt:
     """Return the solution with what matter and effects remember at its end."""
     after = with_parts(found.state, history=then.history, memory=then.memory)
     return with_parts(found, state=after, residual=max(found.residual, found.imbalances[-1]))
+
+
+def _mechanism(found: Attempt, state: State, yields: str) -> Attempt:
+    """Return the failed result of matter that ``yields`` all along a motion."""
+    still = replace(found, state=state, increment=np.zeros_like(found.increment), motion=0.0)
+    return replace(still, converged=False, sentence=yields, singular=True, yields=True)
 
 
 def _lost(found: Attempt, state: State, flows: str) -> Attempt:

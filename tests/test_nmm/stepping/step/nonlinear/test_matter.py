@@ -114,6 +114,46 @@ def test_an_attempt_keeps_nothing_and_its_answer_holds_the_history():
     np.testing.assert_allclose(again.increment, first.increment, rtol=0, atol=1e-9 * 1e-3)
 
 
+SOIL = """
+plane = "strain"
+[materials.soil]
+law = "drucker_prager"
+young_modulus = "17 MPa"
+poisson_ratio = 0.45
+density = 2000.0
+cohesion = "5 kPa"
+friction_angle = 0.5
+[[blocks]]
+name = "b"
+material = "soil"
+vertices = {ring}
+[[supports]]
+name = "foot"
+segment = [[0, 0], [{x}, 0]]
+fix = ["x", "y"]
+[[loads]]
+name = "top"
+kind = "edge"
+segment = [[0, 0.65], [{x}, 0.65]]
+traction = [{push}, -4e3]
+[[monitors]]
+name = "middle"
+point = [{half}, 0.65]
+"""
+
+
+def test_soil_and_its_mirror_image_move_alike_wherever_their_rings_begin():
+    ring = np.array([[0, 0], [1, 0], [1, 0.65], [0, 0.65]])
+    ways = []
+    for sign, begin in ((1, 0), (1, 2), (-1, 0), (-1, 3)):
+        one = np.roll(ring * [sign, 1], begin, axis=0).tolist()
+        text = SOIL.format(ring=one, x=sign, half=sign / 2, push=sign * 5e3)
+        h = run(text, "dda degree 2").history
+        ways.append([sign * h["monitor:middle:ux"][-1], h["monitor:middle:uy"][-1]])
+    # Steps are solved to 1e-8; fans about the lowest vertex are 5e-3 apart here.
+    np.testing.assert_allclose(ways, [ways[0]] * 4, rtol=1e-6)
+
+
 def test_half_the_increment_ends_near_where_the_whole_does():
     # Proportional loads of a bar: radial paths, whatever the increments.
     ends = [
