@@ -70,14 +70,15 @@ class EffectForces:
     def at(self, increment: Floats, after: State | None) -> tuple[EffectPart, Mapping[str, Floats]]:
         """Return the forces at an increment (n,) of the step, and what effects then remember.
 
-        ``after`` is the state that it leads to, where that is known.
+        ``after`` is the state that it leads to, where that is known. A correction of statics that
+        moves nothing still remembers what its step did: its memory is that of the step's start.
 
         Raises
         ------
         SolveError
             Where an effect has none.
         """
-        if self._lined and not increment.any():
+        if self._lined and after is None and not increment.any():
             return self._first(), self._state.memory
         pulls = self._pulls(increment, after)
         memory = dict(self._state.memory)
