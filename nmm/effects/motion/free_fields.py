@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 from nmm.assembly.places import Place
 from nmm.effects.acting_place import edge_place
 from nmm.effects.base import Setup
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 FINER = 6
 # Share of the shear stiffness beyond which an upright strain shears the ground.
 LEANING = 1e-9
+# Of coordinates: levels nearer to a node of a column lie on it.
+ROUNDED_LEVEL = 64 * float(np.finfo(float).eps)
 
 
 @dataclass(frozen=True)
@@ -53,8 +55,8 @@ class FreeField:
         """Tractions (m, 2) of the free field on the edge, by its stress and its velocity (Pa)."""
         height, level = self.columns[0].height, self.dashpots.place.position[:, 1]
         velocity = [np.interp(level, height, one.velocity(time)) for one in self.columns]
-        element = np.clip(np.searchsorted(height, level) - 1, 0, len(height) - 2)
-        shear, along = (one.stress(time)[element] for one in self.columns)
+        beside = _beside(height, level)
+        shear, along = (one.stress(time)[beside].mean(axis=0) for one in self.columns)
         normal = self.dashpots.place.normal
         assert normal is not None
         side = normal[:, 0]
@@ -81,6 +83,16 @@ class FreeFields(DrivenEdges):
     def about(self) -> str:
         counts = [len(one.columns[0].modulus) for one in self.sides]
         return f"columns of {' and '.join(map(str, counts))} elements"
+
+
+def _beside(height: Floats, level: Floats) -> Ints:
+    """Elements (2, m) of a column below and above levels (m,): two at a node, else twice one.
+
+    Points in the middle of an edge of the mesh lie on nodes, where rounding would choose.
+    """
+    near = ROUNDED_LEVEL * max(float(np.abs(height).max()), float(height[-1] - height[0]))
+    sides = [np.searchsorted(height, level + way) - 1 for way in (-near, near)]
+    return np.clip(sides, 0, len(height) - 2)
 
 
 def _side(setup: Setup, table: "FreeFieldTable") -> FreeField:

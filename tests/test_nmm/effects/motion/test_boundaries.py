@@ -1,5 +1,7 @@
 """Viscous boundaries and the free field: shear columns, waves that leave, books and drift."""
 
+import tomllib
+
 import numpy as np
 import pytest
 
@@ -11,7 +13,10 @@ from nmm.errors import GeometryError, SceneError
 from nmm.formulation import Formulation
 from nmm.materials.orthotropic import Orthotropic
 from nmm.model.from_polygons import solid
+from nmm.scene import parse_scene
 from nmm.testing import check_effect_of
+from nmm.verification.hard.cases.files import toml
+from nmm.verification.hard.cases.units import in_units
 
 # Velocity of a wave going up (m/s), every 5 ms: 0.1 sin^2(pi t / 0.2).
 TIMES = np.arange(41) * 0.005
@@ -155,6 +160,17 @@ def test_every_line_of_a_box_between_free_fields_moves_as_the_column(axis):
         along = box.history[f"monitor:{monitor}:u{axis}"]
         assert np.abs(other).max() < 1e-4 * np.abs(along).max()
     assert missing(box) < 1e-8
+
+
+def test_ground_between_free_fields_moves_alike_in_millimetres():
+    """Points in the middle of cells lie on nodes of the columns: rounding chose the element."""
+    scene = tomllib.loads(ground(duration=0.02, more=SIDES).replace("30]", "3]"))
+    scene["formulation"]["cover"] = {"type": "quads", "size": 1.4531, "degree": 2}
+    plain, scaled = (nmm.run(parse_scene(toml(one))) for one in (scene, in_units(scene, 1e3, 1.0)))
+    for name in ("monitor:left:ux", "monitor:middle:ux"):
+        way = plain.history[name]
+        # Rounding of the solutions, of 8 steps.
+        assert np.abs(scaled.history[name] / 1e3 - way).max() < 1e-9 * np.abs(way).max()
 
 
 def test_what_shis_rule_takes_of_a_wave_is_told():
