@@ -1,6 +1,6 @@
 """`nmm verify --hard`: the hard matrix on the terminal. What it needs is imported when it runs."""
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,7 +18,7 @@ REDUCED_BELOW = 5.0
 
 def verify_hard(
     names: list[str],
-    seeds: Iterable[int],
+    seeds: Sequence[int],
     parts: list[str],
     slow: bool,
     listed: bool,
@@ -46,7 +46,6 @@ def verify_hard(
     if names and all(name.endswith(SUFFIX) for name in names):
         _tell_records([Path(name) for name in names], out)
         return
-    seeds = list(seeds)
     how = " ".join([*names, f"--first {seeds[0]} --seeds {len(seeds)}", *["--slow"] * slow])
     found = []
     for group, case in chosen_cases(names, seeds, slow, parts):

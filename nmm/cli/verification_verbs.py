@@ -34,8 +34,12 @@ def verify(
     hard: Annotated[
         bool, typer.Option("--hard", help="Run the hard matrix: NAME is a class of hard cases.")
     ] = False,
-    seeds: Annotated[int, typer.Option(min=1, help="With --hard: how many seeds a class.")] = 1,
-    first: Annotated[int, typer.Option(min=0, help="With --hard: the first seed.")] = 0,
+    seeds: Annotated[
+        int, typer.Option(min=1, help="With --hard: how many seeds a class, cheap ones more.")
+    ] = 1,
+    first: Annotated[
+        int, typer.Option(min=0, help="With --hard: the first seed, as cases are named by it.")
+    ] = 0,
     part: Annotated[
         list[str] | None,
         typer.Option(help="With --hard: a part that cases must have, such as cone; repeatable."),

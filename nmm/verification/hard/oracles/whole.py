@@ -1,6 +1,7 @@
 """Whether what a run of any scene claims is so, by what needs no answer.
 
 A run that says it has failed, is unbalanced or spent has told; what says it is right is checked.
+A solver that gave up may have been wrong to, which no oracle sees: such runs are counted.
 """
 
 from collections.abc import Iterator
@@ -29,6 +30,9 @@ if TYPE_CHECKING:
 
 SURE = ("converged", "failure_load")
 """Ends that claim an answer."""
+
+GAVE_UP = "gave up"
+"""Of a run that ends `failed`: 1, which is no miss."""
 
 HOLD_ELSEWHERE = (
     *("springs", "foundations", "dashpots", "viscous_boundaries", "water_pressures", "bars"),
@@ -93,12 +97,20 @@ def sound(scene: Document, way: str) -> Checks:
         # Strengths over a factor are known to be refused once the factor is tried.
         named = str(error).startswith("strength_reduction: strengths over")
         return {"refused before it runs": holds(named, str(error))}
-    checks = _records(found.run) | _named(scene, found.run) | _finite(found.run)
+    checks = _gave_up(found.run) | _records(found.run) | _named(scene, found.run)
+    checks |= _finite(found.run)
     if found.run.summary.status in SURE and found.run.history:
         checks |= _balance(scene, found)
         checks |= {} if "contact" not in scene or _springy(scene) else _apart(found.run)
         checks |= _again(scene, found, way)
     return checks
+
+
+def _gave_up(run: "Run") -> Checks:
+    """Say whether the solver gave up, and why."""
+    if run.summary.status != "failed":
+        return {}
+    return {GAVE_UP: limit(1.0, 1.0, run.summary.sentence)}
 
 
 def _finite(run: "Run") -> Checks:

@@ -1,7 +1,7 @@
 """Run hard cases and keep what came out."""
 
 import signal
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from threading import current_thread, main_thread
@@ -10,6 +10,7 @@ from time import process_time
 from nmm.errors import NmmError
 from nmm.verification.base import Checks
 from nmm.verification.hard.cases.base import Document, HardCase
+from nmm.verification.hard.oracles.whole import GAVE_UP
 from nmm.verification.hard.running.reducing import reduced
 from nmm.verification.hard.running.registry import HARD
 
@@ -52,10 +53,17 @@ class Finding:
         return not self.fault and not self.missed
 
     @property
+    def gave_up(self) -> str:
+        """Why the solver gave up, which may be right; empty where it did not."""
+        return self.checks[GAVE_UP].reason if GAVE_UP in self.checks else ""
+
+    @property
     def words(self) -> str:
-        """What misses, with figures; what was found where nothing does."""
+        """What misses, with figures; else why the solver gave up, or what was found."""
         if self.fault:
             return " ".join(self.fault.split())[:200]
+        if self.gave_up and not self.missed:
+            return f"{GAVE_UP}: {self.gave_up}"[:200]
         told = self.missed or list(self.checks)
         return "; ".join(f"{name} {self.checks[name].shown}" for name in told)
 
@@ -121,7 +129,7 @@ def _faults(finding: Finding) -> set[str]:
 
 def chosen_cases(
     classes: Iterable[str],
-    seeds: Iterable[int],
+    seeds: Sequence[int],
     slow: bool = False,
     parts: Iterable[str] = (),
 ) -> Iterator[tuple[str, HardCase]]:
@@ -132,16 +140,17 @@ def chosen_cases(
     classes
         Names in `HARD` or ``module:Class``; all when empty.
     seeds
-        What the generators draw from; cheap classes take several for each.
+        What the generators draw from, one after the other; cheap classes go on from the first,
+        several for each.
     slow
         Whether cases of more than a second or two are among them.
     parts
         Parts that a case must have, all of them; those of any when empty.
     """
-    wanted, seeds = set(parts), list(seeds)
+    wanted = set(parts)
     for name in list(classes) or HARD.table:
         made = HARD.load_said(name)()
-        for seed in (made.share * one + more for one in seeds for more in range(made.share)):
+        for seed in range(seeds[0], seeds[0] + made.share * len(seeds)):
             for case in made.cases(seed):
                 if wanted <= set(case.parts.values()) and (slow or not case.slow):
                     yield name, case

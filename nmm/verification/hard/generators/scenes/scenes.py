@@ -9,6 +9,7 @@ import numpy as np
 from nmm.verification.hard.cases.base import Document, HardCase, HardClass
 from nmm.verification.hard.generators.scenes import acting, bodies, matter
 from nmm.verification.hard.generators.scenes.approximated import formulated
+from nmm.verification.hard.generators.scenes.possible import possible
 from nmm.verification.hard.generators.scenes.site import DENSITY, Site, merged
 from nmm.verification.hard.generators.scenes.staged import staged
 from nmm.verification.hard.oracles.whole import sound, ways
@@ -46,6 +47,7 @@ class Scenes(HardClass):
         random = np.random.default_rng([seed, 97])
         kind = str(random.choice(list(KINDS), p=list(KINDS.values())))
         scene, parts = _flight(random) if kind == "flight" else standing(random, kind)[:2]
+        scene = possible(scene)
         seen = str(random.choice(list(ways(scene))))
         label = f"seed {seed}, {kind}, {', '.join(parts.values())}, {seen}"
         yield HardCase(label, scene, partial(sound, way=seen), {**parts, "kind": kind})

@@ -6,6 +6,7 @@ from functools import partial
 import numpy as np
 
 from nmm.verification.hard.cases.base import Document, HardCase, HardClass
+from nmm.verification.hard.generators.scenes.possible import possible
 from nmm.verification.hard.generators.scenes.scenes import standing
 from nmm.verification.hard.generators.scenes.site import Site, merged
 from nmm.verification.hard.generators.seldom import (
@@ -68,6 +69,7 @@ class SeldomKeys(HardClass):
         chosen = _drawn(fit, random)
         for add in sorted(chosen, key=lambda one: one is shapes.tessellated):
             scene = joined(scene, add(scene, site))
+        scene = possible(scene)
         seen = str(random.choice(list(_ways(scene))))
         names = [add.__name__.replace("_", " ") for add in chosen]
         label = f"seed {seed}, {site.kind}, {', '.join([*parts.values(), *names])}, {seen}"
