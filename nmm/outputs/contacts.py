@@ -1,16 +1,24 @@
-"""Quantities of contact points."""
+"""Quantities of contact points and of the faces of cracks."""
 
 from collections.abc import Mapping
 
 import numpy as np
 
+from nmm.assembly.model import Model
 from nmm.contact.problem.contact_state import ContactState
+from nmm.fracture.growth.faces import CrackFaces
 from nmm.outputs.base import Output, View
 from nmm.quantity import Quantity
 
 
 class CrackOpening(Output):
-    """Gap of broken bonds at contact points (m); zero where they hold or are closed."""
+    """Gap of broken bonds at contact points (m), zero where they hold or are closed.
+
+    The widest of a step is that of these and of the faces of cracks, with contact or without.
+    """
+
+    def __init__(self) -> None:
+        self._of: tuple[Model, CrackFaces] | None = None
 
     def fields(self, view: View) -> Mapping[str, Quantity]:
         contacts = view.contacts
@@ -23,5 +31,12 @@ class CrackOpening(Output):
 
     def history(self, view: View) -> Mapping[str, float]:
         """Return the widest opening (m)."""
-        widest = self.fields(view)["crack_opening"].values.max(initial=0.0)
-        return {"crack_opening": float(widest)}
+        broken = self.fields(view)["crack_opening"].values.max(initial=0.0)
+        faces = self._faces(view.model).jumps(view.state)[1].max(initial=0.0)
+        return {"crack_opening": float(max(broken, faces))}
+
+    def _faces(self, model: Model) -> CrackFaces:
+        """Return the faces of the cracks of a model, found once."""
+        if self._of is None or self._of[0] is not model:
+            self._of = model, CrackFaces.of(model)
+        return self._of[1]

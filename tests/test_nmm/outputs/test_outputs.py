@@ -30,3 +30,44 @@ def test_what_outputs_read_changes_no_digit_of_a_run():
         assert np.array_equal(read.history[name], column)
     assert set(read.history) - set(plain.history) == {"crack_opening"}
     assert set(read.frames[-1].fields) == set(OUTPUTS.names())
+
+
+@pytest.mark.parametrize("contact", ["", "[contact]\n[interfaces.dry]\nfriction_angle = 0\n"])
+def test_the_widest_opening_is_that_of_a_pressed_crack_with_contact_or_without(contact):
+    """A crack of length 2 a under pressure p opens by 4 p sqrt(a^2 - x^2) (1 - nu^2) / E."""
+    text = f"""
+    plane = "strain"
+    [materials.rock]
+    young_modulus = 1e10
+    poisson_ratio = 0.25
+    [[blocks]]
+    material = "rock"
+    vertices = [[-5, -5], [5, -5], [5, 5], [-5, 5]]
+    [[cracks]]
+    name = "slit"
+    points = [[-0.5, 0], [0.5, 0]]
+    [[water_pressures]]
+    name = "pumped"
+    crack = "slit"
+    pressure = 1e6
+    [[supports]]
+    name = "left"
+    point = [-5, -5]
+    fix = ["x", "y"]
+    [[supports]]
+    name = "right"
+    point = [5, -5]
+    fix = ["y"]
+    {contact}
+    [output]
+    quantities = ["crack_opening"]
+    [formulation.cover]
+    type = "quads"
+    size = 0.25
+    """
+    run = nmm.run(nmm.parse_scene(text))
+    widest = 4 * 1e6 * 0.5 * (1 - 0.25**2) / 1e10
+    # That of a face is the mean of its ends, here of x = 0 and x = a / 2. The sides of the plate,
+    # ten lengths apart, open it by up to 1 % more.
+    of_face = widest * (1 + 0.75**0.5) / 2
+    assert run.history["crack_opening"][-1] == pytest.approx(of_face, rel=0.01)
