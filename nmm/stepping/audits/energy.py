@@ -25,6 +25,14 @@ WAVES = 0.1
 # Steps in an impact with which Shi's integrator keeps nine tenths of its energy.
 RESOLVED = 60
 
+# What contact takes whose forces act in steps as wholes, without springs.
+INELASTIC = (
+    "exact contact ends an impact within a step, without a rebound: right of stiff bodies that "
+    "stay together, and of what is placed and rests, whatever the step; where bodies are to "
+    'rebound or waves matter, take [contact] enforcement = "penalty" and steps that resolve its '
+    "springs"
+)
+
 # Why work is not what is stored and lost in statics, and what to do: bonds broke, bodies touch, or
 # neither.
 TORN = (
@@ -219,18 +227,28 @@ def _lost(run: EndedRun) -> Findings:
         for name, lost in parts.items()
         if lost > 0.01 * share * ledger.throughput
     )
-    # Both fall with the first power of the step, what contact takes once impacts are resolved.
-    step = rule.fixed_step or run.state.time / max(ledger.steps, 1)
-    kept = step * THRESHOLDS["energy_lost"].warns / max(share, 1e-300)
     lasts = impact_lasts(run)
-    if lasts is not None and ledger.contact_loss > 0.5 * share * ledger.throughput:
-        kept = min(kept, lasts / RESOLVED)
-    damps = make_integrator(rule).order == 1
-    other = ', or type = "newmark", which damps nothing but impacts' if damps else ""
+    by_contact = ledger.contact_loss > 0.5 * share * ledger.throughput
     yield AuditFinding(
         "energy_lost",
         share,
         f"{percent(share)} of the turnover was lost to no friction or damper"
         + (f": {told}" if told else ""),
-        f"steps of some {kept:.2g} s in place of {step:.3g} s would keep it{other}",
+        INELASTIC if by_contact and lasts is None else _keeps(run, share, by_contact, lasts),
     )
+
+
+def _keeps(run: EndedRun, share: float, by_contact: bool, lasts: float | None) -> str:
+    """Return what keeps the energy of which a ``share`` was lost.
+
+    What integrators take falls with the first power of the step, and what contact takes once
+    impacts, which last for some ``lasts`` (s) on springs, are resolved.
+    """
+    rule = run.formulation.integrator
+    step = rule.fixed_step or run.state.time / max(run.recorder.ledger.steps, 1)
+    kept = step * THRESHOLDS["energy_lost"].warns / max(share, 1e-300)
+    if lasts is not None and by_contact:
+        kept = min(kept, lasts / RESOLVED)
+    damps = make_integrator(rule).order == 1
+    other = ', or type = "newmark", which damps nothing but impacts' if damps else ""
+    return f"steps of some {kept:.2g} s in place of {step:.3g} s would keep it{other}"

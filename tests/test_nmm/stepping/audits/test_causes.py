@@ -106,6 +106,17 @@ def test_springs_of_contact_have_not_lost_what_they_stored_in_the_first_step():
     assert lost == pytest.approx(100 * found.energy_balance, rel=5e-3)  # three digits are told
 
 
+@pytest.mark.parametrize("enforcement", ["cone", "lagrange"])
+def test_an_impact_that_bodies_stay_together_after_asks_for_no_shorter_steps(enforcement):
+    """A square that hits one like it, at rest: half of its energy goes, whatever the step."""
+    two = [text.box("a", (0, 0), (1, 1)), text.box("b", (1.001, 0), (1, 1))]
+    tables = [text.material("rock", 1e9), text.interface("dry", 0.0), *two, moving("a", 0.1, 0.0)]
+    scene = text.scene(HEAD.format(0.04) + "[contact]\n", tables)
+    said = told(scene, "energy_lost", step=4e-3, contact={"enforcement": enforcement})
+    assert "steps of some" not in said
+    assert "stay together" in said
+
+
 def test_an_integrator_has_not_lost_what_dashpots_took():
     damped = WAVES.replace("[damping]\nlocal = 0.5\n", "") + (
         '[[dashpots]]\nname = "damper"\npoints = [[3, 0.5], [1, 0.5]]\nviscosity = 2e4\n'
