@@ -15,9 +15,10 @@ from nmm.contact.islands.warm_start import start_from
 from nmm.contact.iteration.alternation import Alternation
 from nmm.contact.iteration.apart import apart_in, solve_apart
 from nmm.contact.iteration.cells import FEW, from_cell_to_cell
+from nmm.contact.iteration.central_start import central_start
 from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
 from nmm.contact.iteration.interior_point import Goal, InteriorPoint
-from nmm.contact.iteration.newton.semismooth_newton import polish
+from nmm.contact.iteration.newton.semismooth_newton import chords, polish
 from nmm.contact.iteration.options.budgets import SMALL, IterationBudget
 from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
@@ -114,9 +115,16 @@ class _WaysToForces:
         size = self.springs.residual(increment).size
         near = size <= options.ways.nearness
         found = IterationResult(self.springs, increment, size, 0, 0, "")
+        tangent = self.tools.memory.last_tangent(self.springs.problem)
+        if near and tangent is not None:
+            found = chords(found, tangent, self.tolerance)
+            if found.size <= self.tolerance:
+                self.tools.memory.keep_tangent(tangent)
+                return found
         first = ways.budget(budget, near, options.ways)
         if first is not None:
-            found = self.alternated(increment, first)
+            further = self.alternated(increment, first)
+            found = found.then(further) if found.solves else further
         if near and found.size > self.tolerance:  # few states are wrong where it is cut short
             found = found.then(self.polished(found.increment))
         if found.size <= self.tolerance:
@@ -126,7 +134,7 @@ class _WaysToForces:
         finishes = ways.finishes
         goals = (options.springs.crossover, self.tolerance) if finishes else (self.tolerance,)
         rest = replace(budget, factors=options.springs.first, cost=options.ways.finish)
-        ended = self.inside(found, goals, rest)
+        ended = self.inside(found, goals, rest, central=True)
         if not ended.size <= self.tolerance:
             return ended.then(self.in_order(increment, budget))
         if not near:
@@ -151,19 +159,30 @@ class _WaysToForces:
         return Alternation(self.springs, self.tools, self.tolerance, increment).run(budget)
 
     def inside(
-        self, found: IterationResult, goals: tuple[float, ...], rest: IterationBudget
+        self,
+        found: IterationResult,
+        goals: tuple[float, ...],
+        rest: IterationBudget,
+        central: bool = False,
     ) -> IterationResult:
-        """Best of the interior point; at each of the ``goals`` alternation may spend ``rest``."""
+        """Best of the interior point; at each of the ``goals`` alternation may spend ``rest``.
+
+        Its first path is from what was ``found``, if ``central``.
+        """
         springs, tools, best = self.springs, self.tools, found
         exact = np.zeros(springs.problem.n_contacts, dtype=bool)
         sides = Complementarity(springs, exact, 1 / springs.stiffness)
         start = inside_start(sides, tools)
+        nearer = None
+        if central and 0 < found.size < 1:
+            nearer = central_start(sides, found.increment, found.size * sides.mean(start))
         for balance in goals:
             method, before = InteriorPoint(sides, tools), best.size
             if best.size > balance:
                 goal = Goal(max(balance, self.tolerance))
-                best = best.then(method.run(start, rest.interior, goal))
-                start = method.reached if best.size <= balance else start
+                best = best.then(method.run(start, rest.interior, goal, nearer))
+                if best.size <= balance:
+                    start, nearer = method.reached, None
             # From where the alternation ended it would only do the same again.
             if best.size <= self.tolerance or best.size == before > balance:
                 break
@@ -178,7 +197,9 @@ class _WaysToForces:
         """End of Newton's method on the springs that act."""
         pattern = partial(self.tools.memory.pattern_of, self.springs.problem)
         linear, fine = self.tools.linear.unsymmetric(), self.tools.options.springs.fine
-        return polish(self.springs, pattern, linear, increment, fine)
+        return polish(
+            self.springs, pattern, linear, increment, fine, keep=self.tools.memory.keep_tangent
+        )
 
 
 def inside_start(sides: Complementarity, tools: Tools) -> InteriorIterate:

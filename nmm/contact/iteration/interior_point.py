@@ -10,6 +10,7 @@ corrections of centrality (1996). The bound moves with the normal force inside t
 so there is no dilatancy; the matrix is then unsymmetric.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -76,15 +77,23 @@ class InteriorPoint:
     def __init__(self, sides: Complementarity, tools: Tools) -> None:
         self.options, self.linear = tools.options.interior, tools.linear.unsymmetric()
         self.sides, self.pattern = sides, tools.memory.pattern_of(sides.springs.problem)
+        self.keep = tools.memory.keep_tangent
         self.factorisations = self.solves = 0
         self.reached: InteriorIterate
 
-    def run(self, start: InteriorIterate, budget: int, goal: Goal) -> IterationResult:
-        """Follow paths with at most ``budget`` factorisations in all; return the best found."""
+    def run(
+        self,
+        start: InteriorIterate,
+        budget: int,
+        goal: Goal,
+        nearer: InteriorIterate | None = None,
+    ) -> IterationResult:
+        """Follow paths with at most ``budget`` factorisations in all; return the best found.
+
+        The first is from ``nearer``, if given, the others from ``start`` and its multiples.
+        """
         best, self.reached = self.sides.judged(start), start
-        for distance in self.options.distances:
-            slack, flow = distance * start.slack, distance * start.flow
-            at = replace(start, slack=slack, flow=flow)
+        for at in self._starts(start, nearer):
             best = self._followed(at, best, budget, goal)
             if goal.distance(best) <= 1 or self.factorisations >= budget:
                 break
@@ -94,6 +103,14 @@ class InteriorPoint:
             factorisations=self.factorisations,
             story=f"interior point with {self.factorisations} factorisations",
         )
+
+    def _starts(
+        self, start: InteriorIterate, nearer: InteriorIterate | None
+    ) -> Iterator[InteriorIterate]:
+        if nearer is not None:
+            yield nearer
+        for distance in self.options.distances:
+            yield replace(start, slack=distance * start.slack, flow=distance * start.flow)
 
     def centred(
         self, point: InteriorIterate, product: float, budget: int
@@ -145,7 +162,7 @@ class InteriorPoint:
     def _polished(self, found: IterationResult, goal: Goal) -> IterationResult:
         """Newton's method on springs from a point that may be near enough for it."""
         given = found.springs, lambda: self.pattern, self.linear
-        end = polish(*given, found.increment, goal.balance)
+        end = polish(*given, found.increment, goal.balance, keep=self.keep)
         self.factorisations += end.factorisations
         self.solves += end.solves
         return end if end.size < found.size else found

@@ -83,6 +83,8 @@ class Memory:
         What the ways to the forces of springs cost in the last steps.
     barrier_width
         Width of the barrier chosen in the first step (m). It is no cache: answers depend on it.
+    tangent
+        Pattern and last factor of Newton's method in the last solution; None where it took none.
     apart
         What is kept of islands solved apart, by their unknowns, latest last.
     options
@@ -96,6 +98,7 @@ class Memory:
     answered: tuple[StepProblem, StepAnswer] | None = None
     ways: Ways = field(default_factory=Ways)
     barrier_width: float | None = None
+    tangent: tuple[SpringPattern | None, Factor] | None = None
     apart: dict[bytes, "Memory"] = field(default_factory=dict)
     options: MemoryOptions = field(default_factory=MemoryOptions)
     _load: Floats | None = None
@@ -140,13 +143,23 @@ class Memory:
         self.kept = [kept, *self.kept[: self.options.factors - 1]]
         return kept, True
 
+    def keep_tangent(self, factor: Factor) -> None:
+        """Keep a factor of Newton's method, of the present pattern, in time alone."""
+        if self.moving:
+            self.tangent = self.pattern, factor
+
+    def last_tangent(self, problem: StepProblem) -> Factor | None:
+        """Return and drop the factor of the last solution if it is of the pattern of a problem."""
+        kept, self.tangent = self.tangent, None
+        return None if kept is None or kept[0] is not self.pattern_of(problem) else kept[1]
+
     def forget(self, kept: KeptFactor) -> None:
         """Drop a factor that no longer serves."""
         self.kept = [other for other in self.kept if other is not kept]
 
     def forget_answers(self) -> None:
         """Drop all that was found: after a step that failed none of it is near the next answer."""
-        self.found, self.answered = [], None
+        self.found, self.answered, self.tangent = [], None, None
 
     def forget_all(self) -> None:
         """Drop what is kept for speed alone: patterns, factors and starts."""
