@@ -1,7 +1,7 @@
 """Controls of a path: what grows step by step, while the load factor follows."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, Self
 
@@ -33,6 +33,9 @@ class PathState:
         Points of the scene, by name.
     way
         (n,) displacements of the unknowns since the start of the run, rigid motions included.
+    losing
+        Computes the energy (n,) by unknown (J) that bonds at their limit lose as they open and
+        slide further.
     """
 
     state: State
@@ -40,6 +43,7 @@ class PathState:
     dead: Floats
     monitors: Mapping[str, MaterialPoints]
     way: Floats
+    losing: Callable[[], Floats]
 
 
 @dataclass(frozen=True)

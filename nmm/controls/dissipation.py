@@ -1,9 +1,9 @@
-"""Arc length by dissipation: every step takes the same energy from the structure.
+"""Arc length by dissipation: every step takes the same energy from the bonds (Gutierrez 2004).
 
-With loads ``p = lambda f + g`` on a structure that unloads to its origin ``p.u / 2`` is stored, so
-that a step dissipates ``(p.du - dlambda f.u) / 2`` (Gutierrez 2004; Verhoosel, Remmers and
-Gutierrez 2009; there without forces ``g`` that stay, as of weight and of initial stress). Before
-the first bond is at its limit nothing is dissipated, and the load is what grows.
+Where all unloads to its origin the energy follows from loads and displacements (Verhoosel, Remmers
+and Gutierrez 2009). Slip under pressure is not taken back by unloading; what bonds at their limit
+lose as they open and slide further is known by jump whatever they do (`PathState.losing`). Before
+the first bond is at its limit nothing is lost, and the load is what grows.
 """
 
 from dataclasses import dataclass
@@ -35,16 +35,14 @@ class Dissipation(Control):
         return not softened
 
     def row(self, at: PathState) -> Floats:
-        return np.asarray((at.state.load_factor * at.load + at.dead) / 2)
-
-    def share(self, at: PathState) -> float:
-        return -float(at.load @ at.way) / 2
+        return at.losing()
 
     def standstill(self, at: PathState) -> PathEquation:
         # The same holds here; what the load works on stands still instead.
         return PathEquation(at.load, at.load, 0.0, 0.0)
 
     def correction(self, at: PathState, step: Floats) -> PathEquation:
-        # Unloading to the origin dissipates nothing either, however far: a correction is normal to
-        # its step instead (Ramm 1981).
-        return PathEquation(at.load, step, 0.0, 0.0)
+        # Jumps that lose energy stand still, whether they would open further or unload: to load
+        # and unload on one secant loses nothing, but moves these.
+        row = self.row(at)
+        return PathEquation(at.load, row if row.any() else step, 0.0, 0.0)

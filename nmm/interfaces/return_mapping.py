@@ -9,7 +9,7 @@ from typing import Protocol
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Bools, Floats
 from nmm.interfaces.history import History
 from nmm.interfaces.response import InterfaceResponse, Traction
 
@@ -17,6 +17,8 @@ ROUNDS, CLOSE = 60, 1e-14
 """Most iterations for the plastic slip, and their tolerance over the largest trial stress."""
 NUDGE = 1e-6
 """Step of finite differences of the history, as a share of the gap or of the elastic slip."""
+SAME = 1e-9
+"""Pulls that differ by less than this share of the strength are the same."""
 ROUNDED_PLACE = 2e-12
 """As a share of a slip, 1e4 times its rounding; larger steps may reach from slip to stick."""
 
@@ -47,7 +49,8 @@ def mapped(
 ) -> Traction:
     """See `InterfaceLaw.update`."""
     after = _after(law, history, gap, slip, stiffness)
-    traction, slope = _traction(law, history, after, gap, slip, stiffness)
+    behind = _behind(law, history, after, gap, stiffness)
+    traction, slope = _traction(law, history, after, gap, slip, stiffness, behind)
 
     def slopes() -> Floats:
         tangent = np.zeros((len(gap), 2, 2))
@@ -62,9 +65,8 @@ def mapped(
         gaps = here[0] + np.concatenate([by_gap, -by_gap, still, still])
         slips = here[1] + np.concatenate([still, still, by_slip, -by_slip])
         other = _after(law, known, gaps, slips, stiff)
-        more, less = (
-            _traction(law, known, other, *here, stiff)[0].reshape(2, 2, -1, 2).swapaxes(0, 1)
-        )
+        found = _traction(law, known, other, *here, stiff, np.tile(behind, 4))[0]
+        more, less = found.reshape(2, 2, -1, 2).swapaxes(0, 1)
         for column, nudge in enumerate((by_gap, by_slip)):
             tangent[:, :, column] += (more[column] - less[column]) / (2 * nudge[:, None])
         return tangent
@@ -107,10 +109,20 @@ def _after(
         more = excess > 0
         least, over = np.where(more, at, least), np.where(more, excess, part * over)
         most, under = np.where(more, most, at), np.where(more, part * under, excess)
-    force, _ = _traction(law, history, after, gap, slip, stiffness)
+    still = np.zeros(len(gap), dtype=bool)
+    force, _ = _traction(law, history, after, gap, slip, stiffness, still)
     breaks = history["bonded"] & (law.overload(force[:, 0], force[:, 1]) > 1)
     broken = law.broken(after) | {"plastic_slip": slip}
     return {name: np.where(breaks, broken[name], after[name]) for name in after}
+
+
+def _behind(
+    law: LawAtPoint, before: History, after: History, gap: Floats, stiffness: Stiffness
+) -> Bools:
+    """Return which bonds (m,) are open by less than what slid has damaged: on their new secant."""
+    response = law.response(after, stiffness[0])
+    pull = stiffness[0] * response.open_share * (gap - response.rise)
+    return np.asarray(before["bonded"] & (pull < (1 - SAME) * response.limits.tension))
 
 
 def _traction(
@@ -120,19 +132,26 @@ def _traction(
     gap: Floats,
     slip: Floats,
     stiffness: Stiffness,
+    behind: Bools,
 ) -> tuple[Floats, Floats]:
     """Return pull and shear (m, 2) in Pa, and the derivative of the pull by the gap."""
-    pull, slope, _ = _pull(law, before, after, gap, stiffness)
+    pull, slope, _ = _pull(law, before, after, gap, stiffness, behind)
     return np.stack([pull, stiffness[1] * (slip - after["plastic_slip"])], axis=1), slope
 
 
 def _pull(
-    law: LawAtPoint, before: History, after: History, gap: Floats, stiffness: Stiffness
+    law: LawAtPoint,
+    before: History,
+    after: History,
+    gap: Floats,
+    stiffness: Stiffness,
+    behind: Bools | bool = False,
 ) -> tuple[Floats, Floats, Floats]:
     """Return the normal traction, its derivative and the shear bound, at the limits ``after``.
 
-    An open bond is loaded along the secant at the start of the step.
+    A bond that opens is loaded along the secant at the start of the step up to its limit, and those
+    ``behind`` (m,) have the secant that sliding left.
     """
-    secant = law.response(before, stiffness[0]).open_share
-    response = replace(law.response(after, stiffness[0]), open_share=secant)
-    return response.pull(gap, before["bonded"], stiffness[0])
+    response, known = law.response(after, stiffness[0]), law.response(before, stiffness[0])
+    share = np.where(behind, response.open_share, known.open_share)
+    return replace(response, open_share=share).pull(gap, before["bonded"], stiffness[0])

@@ -1,7 +1,7 @@
 """The contact problem of a step along a path: set up, solved, reported like any other step's."""
 
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 from typing import Self
 
 import numpy as np
@@ -11,6 +11,7 @@ from integration.arrays import Bools, Floats
 from nmm.assembly.state import State
 from nmm.contact.bonds.tied_step import TiedBonds
 from nmm.contact.following.by_parts import follow
+from nmm.contact.following.losing import losing
 from nmm.contact.following.path_problem import Bent, PathProblem, PathStep
 from nmm.contact.following.unstable_ways import unstable_ways
 from nmm.contact.laws.contact_laws import ContactLaws
@@ -117,6 +118,13 @@ class PosedPath:
         if self.mixed is not None:
             solved = self.mixed.told(solved, self.found)
         return solved, step.change
+
+    @cached_property
+    def losing(self) -> Floats:
+        """Energy (n,) by unknown (J) that bonds lose as they open and slide further."""
+        some, springs = self.contacts.take(self.free), self.laws.springs(self.contacts)
+        stiff = springs[0][self.free], springs[1][self.free]
+        return losing(self.problem, stiff, some.history)
 
     def _lost(self, after: ContactPoints, answer: StepAnswer, sliding: Floats) -> ContactLosses:
         """Return what contacts went through in a step that ends with the history of ``after``."""

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -33,7 +34,8 @@ class Trials:
         """Return what controls ask of where a path stands."""
         plan = self.stepper.plan
         load, dead = plan.unit_load(at.state), plan.dead_load(at.state, at.way)
-        return PathState(at.state, load, dead, self.monitors, at.way)
+        losing = partial(self.stepper.losing, at.state)
+        return PathState(at.state, load, dead, self.monitors, at.way, losing)
 
     def along(self, at: PathState, path: PathEquation) -> TriedStep:
         """Try a step along a path."""

@@ -204,6 +204,14 @@ class StepSolver:
             except SolveError as fault:
                 return Attempt.failed(equations.state, fault)
 
+    def losing(self, state: State, rule: Integrator, reach: float) -> Floats:
+        """Return the energy (n,) by unknown (J) that bonds lose on a path from a state."""
+        assert self._touching is not None
+        with self._clock.phase("path"):
+            still = Instant.of(state)
+            equations = self._assembly.of(state, still, None, rule, anchored=False)
+            return self._touching.losing(equations, reach)
+
     def _solved(
         self,
         equations: Equations,

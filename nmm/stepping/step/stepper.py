@@ -186,6 +186,10 @@ class Stepper:
         self.budget.check()
         return self._steps.along(state, path, self._rule, self._carried.reach)
 
+    def losing(self, state: State) -> Floats:
+        """Return the energy (n,) by unknown (J) that bonds at their limit lose from a state on."""
+        return self._steps.losing(state, self._rule, self._carried.reach)
+
     def accept(self, attempt: Attempt) -> tuple[State, "ContactPoints | None"]:
         """Accept a trial step as the start of the next one; return it with its final contacts."""
         reach, restarts = self._steps.reach(attempt.motion), self._integrator.restarts_at_impact

@@ -90,6 +90,36 @@ def test_an_opened_bond_goes_back_to_the_origin_on_its_secant():
     assert found.tangent[0, 0, 0] == pytest.approx(STRENGTH / 2 / there[0], rel=1e-9)
 
 
+def test_an_open_bond_that_slides_goes_to_the_secant_that_is_left():
+    """It stayed on the secant before, and the next step began with another force."""
+    width, slip_width, spring = 2 * ENERGY / STRENGTH, 2 * ENERGY / 4e6, np.array([SPRING])
+    gap = np.array([0.2 * width + 0.8 * STRENGTH / SPRING])
+    history = {
+        "bonded": np.array([True]),
+        "plastic_slip": np.zeros(1),
+        "damage": np.array([0.2]),
+    }
+    slip = np.array([0.3 * slip_width])
+    found = LINEAR.update(history, gap, slip, (spring, spring))
+    damage = found.history["damage"]
+    # What is left of cohesion is what the spring is stretched by beyond the slip that damaged.
+    assert damage == pytest.approx(0.2 + (slip - found.traction[0, 1] / SPRING) / slip_width)
+    assert damage > 0.45
+    strength = (1 - damage) * STRENGTH
+    secant = strength / (strength / SPRING + damage * width)
+    assert found.traction[0, 0] == pytest.approx(secant * gap, rel=1e-9)
+    again = LINEAR.update(found.history, gap, slip, (spring, spring))
+    assert again.traction == pytest.approx(found.traction, rel=1e-9)
+    # Slopes by differences of whole steps, small enough to slide on.
+    for column, (opens, slides) in enumerate([(1e-10, 0.0), (0.0, 1e-10)]):
+        more, less = (
+            LINEAR.update(history, gap + way * opens, slip + way * slides, (spring, spring))
+            for way in (1, -1)
+        )
+        slope = (more.traction - less.traction)[0] / 2e-10
+        assert found.tangent[0, :, column] == pytest.approx(slope, rel=1e-4, abs=1e-4 * SPRING)
+
+
 def test_a_bond_that_opens_and_slides_is_answered_by_few_evaluations(monkeypatch):
     """What slides, and what opening and sliding take of the strength, has one kink: 37 before."""
     asked, evolved = [], LinearSoftening.evolved

@@ -71,6 +71,10 @@ class PathSteps:
             result = replace(result, state=replace(result.state, memory=memory))
         return result.told(verdict.converged, verdict.sentence, solved, solved.passes)
 
+    def losing(self, solver: LinearSolver, equations: Equations, reach: float) -> Floats:
+        """Return the energy (n,) by unknown (J) that bonds lose from where the equations begin."""
+        return self._posed(solver, equations, reach).contact.losing
+
     def _posed(self, solver: LinearSolver, equations: Equations, reach: float) -> "_Posed":
         """Return the contact of steps from a state, that of the last one where it is the same."""
         state, contact, last = equations.state, self._search.contact, self._last

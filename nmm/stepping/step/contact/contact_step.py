@@ -116,10 +116,19 @@ class ContactStepSolver:
 
     def along(self, equations: Equations, path: "PathEquation", reach: float) -> Attempt:
         """Solve a step of statics whose load factor is found with the unknowns (`PathSteps`)."""
+        return self._on_paths.attempt(self.solver, equations, path, reach)
+
+    def losing(self, equations: Equations, reach: float) -> Floats:
+        """Return the energy (n,) by unknown (J) that bonds lose on a path from here."""
+        return self._on_paths.losing(self.solver, equations, reach)
+
+    @property
+    def _on_paths(self) -> "PathSteps":
+        """What solves steps along paths; made for the first one."""
         from nmm.stepping.step.contact.contact_path import PathSteps
 
         self._paths = self._paths or PathSteps(self.search, self._mover)
-        return self._paths.attempt(self.solver, equations, path, reach)
+        return self._paths
 
     def _why(self, solution: str, result: Attempt, solved: "ContactSolution") -> str:
         """Return why a solution of the equations is not accepted as a step."""
