@@ -13,13 +13,13 @@ Nitsche's method (1971), which alone has ``Q``. Its matrix is symmetric,
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import cached_property
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Floats
-from nmm.effects.loading.load_factor import factor_of
+from nmm.effects.loading.load_factor import course_of
 
 Factor = Callable[[float], float]
 """From a time (s) to a factor."""
@@ -32,7 +32,7 @@ def steadily(time: float) -> float:
 
 def of_history(history: Sequence[tuple[float, float]] | None) -> Factor:
     """Return the factor of a history of pairs of time (s) and factor; `steadily` without one."""
-    return steadily if history is None else partial(factor_of, history)
+    return steadily if history is None else course_of(history)
 
 
 @dataclass(frozen=True)

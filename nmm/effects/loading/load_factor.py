@@ -1,10 +1,12 @@
 """Factors of loads and displacements of a scene at an instant."""
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from integration.arrays import Floats
 from nmm.effects.base import Instant, Setup
 
 if TYPE_CHECKING:
@@ -17,12 +19,11 @@ def load_factor(setup: Setup, load: "PlacedTable") -> Callable[[Instant], float]
     Without ``[loading]`` all loads are scaled: by 0 to 1 in statics, by 1 in dynamics.
     """
     loading, acting = setup.scene.loading, setup.acting
+    course = course_of(load.history)
     if acting is not None:
-        return lambda end: (
-            factor_of(load.history, end.time) * acting.share(load.name, end.load_factor)
-        )
+        return lambda end: course(end.time) * acting.share(load.name, end.load_factor)
     scaled = loading is None or loading.scaled == "all" or load.name in loading.scaled
-    return lambda end: factor_of(load.history, end.time) * (end.load_factor if scaled else 1.0)
+    return lambda end: course(end.time) * (end.load_factor if scaled else 1.0)
 
 
 def displacement_factor(setup: Setup, support: "SupportTable") -> Callable[[Instant], float]:
@@ -32,24 +33,32 @@ def displacement_factor(setup: Setup, support: "SupportTable") -> Callable[[Inst
     displacement has no history. Supports that are new in a stage are driven from where they stand:
     what their displacement is at its start grows with the load factor.
     """
-    acting, course = setup.acting, support.history
+    acting, course = setup.acting, course_of(support.history)
     if acting is not None:
 
         def driven(end: Instant) -> float:
             lacks, begin = acting.left_behind(support.name, end.time, end.load_factor)
-            return factor_of(course, end.time) - lacks * factor_of(course, begin)
+            return course(end.time) - lacks * course(begin)
 
         return driven
     loading, alone = setup.scene.loading, not setup.scene.loads and support.history is None
     scaled = loading is not None and (
         alone if loading.scaled == "all" else support.name in loading.scaled
     )
-    return lambda end: factor_of(support.history, end.time) * (end.load_factor if scaled else 1.0)
+    return lambda end: course(end.time) * (end.load_factor if scaled else 1.0)
 
 
-def factor_of(history: Sequence[tuple[float, float]] | None, time: float) -> float:
-    """Return the factor of a history of (time, factor) pairs, linear between, constant beyond."""
+def course_of(history: Sequence[tuple[float, float]] | None) -> Callable[[float], float]:
+    """Return the factor over time of (time, factor) pairs, linear between, constant beyond."""
     if history is None:
-        return 1.0
-    times, factors = np.transpose(history)
+        return _steadily
+    times, factors = np.array(history, dtype=float).T.copy()
+    return partial(_between, times, factors)
+
+
+def _steadily(time: float) -> float:
+    return 1.0
+
+
+def _between(times: Floats, factors: Floats, time: float) -> float:
     return float(np.interp(time, times, factors))

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -14,6 +15,10 @@ from nmm.effects.loading.load_factor import displacement_factor
 if TYPE_CHECKING:
     from nmm.effects.motion.record import GroundMotion
     from nmm.scene.actions import SupportTable
+
+
+INSTANTS = 4
+"""Instants at which a field is kept: a step asks at both of its ends, over and over."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +73,8 @@ def _way(
 
     field = ValueField.named(setup, support.field, f"[[supports]] {support.name}")
     field.checked(place.position, setup)
-    return (lambda time: field.values(place.position, time)), field.varies
+    kept = lru_cache(INSTANTS)(lambda time: field.values(place.position, time))
+    return kept, field.varies
 
 
 def _motions(setup: Setup, support: "SupportTable") -> "dict[int, GroundMotion]":

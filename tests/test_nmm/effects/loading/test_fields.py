@@ -1,5 +1,7 @@
 """Tractions, forces on volume and displacements given as fields: exact solutions from scenes."""
 
+from collections import Counter
+
 import numpy as np
 import pytest
 
@@ -154,6 +156,29 @@ def test_wrong_fields_are_told_by_line(old, new, said):
 def test_a_field_that_is_infinite_somewhere_is_refused_with_the_place():
     with pytest.raises(SceneError, match=r"\[\[loads\]\] right: field is \[inf, 0.0\] at \(3"):
         nmm.run(nmm.parse_scene(plate(BENDING.format(field='["1/(x - 3)", "0"]'))))
+
+
+def test_a_field_of_driven_ground_is_evaluated_once_for_an_instant(monkeypatch):
+    from nmm.effects.loading import fields
+
+    hold = BENDING.split("[[loads]]")[0].replace(
+        '"6*x*y/1000", "-3*(x**2 + 0.3*y**2)/1000"', '"y*sin(t)**2/100", "0"'
+    )
+    text = plate(hold).replace('"stress"', '"stress"\nduration = 0.1\n[inertia]')
+    text = text.replace("= 0.3\n", "= 0.3\ndensity = 1.0\n", 1)
+    text += '[formulation.integrator]\ntype = "newmark"\nstep = 0.017\n'
+    evaluated, at = fields.evaluated, Counter()
+
+    def counted(expression, points, time):
+        at[expression.text, round(time, 9)] += 1
+        return evaluated(expression, points, time)
+
+    monkeypatch.setattr(fields, "evaluated", counted)
+    run = nmm.run(nmm.parse_scene(text))
+    times = [round(time, 9) for time in run.history["time"]]
+    assert len(times) > 5
+    # The first and the last instant are those of the check before a run too.
+    assert {at["y*sin(t)**2/100", time] for time in times[1:-1]} == {1}
 
 
 STRIP = """
