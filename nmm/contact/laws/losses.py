@@ -5,9 +5,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from integration.arrays import Bools, Floats
+from integration.arrays import Bools, Floats, Ints
 from integration.contraction import some, summed
 from nmm.contact.laws.contact_laws import ContactLaws
+from nmm.contact.laws.step_friction import StepFriction
 from nmm.contact.points.contact_points import AT_ENDS, ContactPoints
 from nmm.contact.problem.coulomb import shear_bound
 from nmm.contact.problem.step_problem import Limits, StepAnswer
@@ -54,16 +55,32 @@ class ContactLosses:
         the mean of the limits at both ends, what slides later against that at the end. The work of
         dilation against pressure is not lost.
         """
-        slid = self.start.slid
-        rubbed = np.abs(self.answer.shear_force) * (np.abs(slid + self.sliding) - np.abs(slid))
+        rubbed = self._rubbed
         if self.laws.evolving:
             before, after = self.responses
             lifting = self.answer.normal_force * (after.rise - before.rise)
-            rubbed += np.where(self.start.bonded, 0.0, lifting)
+            rubbed = rubbed + np.where(self.start.bonded, 0.0, lifting)
         if static:
-            rubbed *= self._mean_share
+            rubbed = rubbed * self._mean_share
         taken = (area @ dissipated for _, _, area, dissipated in self._softened)
         return float(summed(rubbed[~self.softening]) + sum(taken))
+
+    def friction(self, body: Ints) -> StepFriction:
+        """Return the friction of a step of statics, of edges of a ``body`` each (e,)."""
+        start, slides = self.start, ~self.softening
+        limit, from_start = self._limits
+        one, other = (body[edge] for edge in (start.edge_a, start.edge_b))
+        pair = np.minimum(one, other) * (int(body.max(initial=0)) + 1) + np.maximum(one, other)
+        counted = self._rubbed * self._mean_share
+        return StepFriction(
+            start.key[slides],
+            pair[slides],
+            limit[slides],
+            from_start[slides],
+            np.abs(self.answer.shear_force[slides]),
+            np.abs(start.slid + self.sliding)[slides],
+            float(summed(counted[slides])),
+        )
 
     def beyond_means(self) -> float:
         """Energy (J) that softening took beyond what mean forces of both ends say."""
@@ -85,11 +102,23 @@ class ContactLosses:
         return [(law, way, area, law.dissipated(way)) for law, way, area in parts]
 
     @property
+    def _rubbed(self) -> Floats:
+        """Shear force at the end times slip (m,), in J."""
+        slid = self.start.slid
+        way = np.abs(slid + self.sliding) - np.abs(slid)
+        return np.asarray(np.abs(self.answer.shear_force) * way)
+
+    @property
+    def _limits(self) -> tuple[Floats, Bools]:
+        """Limits (m,) of shear at the start (N), and where shear forces are at them."""
+        start = self.start
+        bound = shear_bound(start.normal_force, start.normal_force != 0, self.responses[0].limits)
+        return bound, np.asarray(np.abs(start.shear_force) >= (1 - AT_LIMIT) * bound)
+
+    @property
     def _mean_share(self) -> Floats:
         """Mean shear force (m,) of a step of statics over that at its end, where contacts slide."""
-        start, end = self.start, np.abs(self.answer.shear_force)
-        bound = shear_bound(start.normal_force, start.normal_force != 0, self.responses[0].limits)
-        from_start = np.abs(start.shear_force) >= (1 - AT_LIMIT) * bound
+        end, (bound, from_start) = np.abs(self.answer.shear_force), self._limits
         mean = (bound + end) / 2
         return np.divide(mean, end, out=np.ones_like(end), where=from_start & (end > 0))
 

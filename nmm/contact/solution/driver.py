@@ -11,7 +11,7 @@ from functools import partial
 import numpy as np
 from scipy.sparse import csc_array
 
-from integration.arrays import Bools, Floats
+from integration.arrays import Bools, Floats, Ints
 from integration.contraction import largest, some
 from nmm.assembly.model import Model
 from nmm.contact.bonds.release import LoadedContacts, given_way, tied_energy
@@ -71,6 +71,7 @@ class ContactSolver:
         self.untouched = StepsWithoutContacts()
         self._laws, self._posing = laws, Posing(laws, softness, mass, enforcement.exact)
         self._enforcement, self._unknown_body = enforcement, manifold.unknown_body
+        self._edge_body = manifold.boundary.body
 
     def forget(self) -> None:
         """Drop what is kept for speed alone, and the last problem with its answer."""
@@ -109,7 +110,8 @@ class ContactSolver:
             broken = breaking(self._laws, iteration.contacts, answer, request.breaking == "worst")
             brittle = broken & self._laws.brittle[contacts.interface]
             if not some(broken):
-                return agreed.told(found, contacts, rows, static=request.step is None)
+                body = self._edge_body if request.step is None else None
+                return agreed.told(found, contacts, rows, body)
             if request.near is not None and not request.near(answer.increment):
                 return found
             if request.breaking == "stop" and brittle.any():
@@ -215,15 +217,24 @@ class _Agreed:
     passes: int
 
     def told(
-        self, found: ContactSolution, start: ContactPoints, rows: ContactRows, static: bool
+        self,
+        found: ContactSolution,
+        start: ContactPoints,
+        rows: ContactRows,
+        body: Ints | None,
     ) -> ContactSolution:
-        """Return the solution as an accepted step from ``start``, with the loss to friction."""
+        """Return the solution as an accepted step from ``start``, with the loss to friction.
+
+        ``body`` (e,) are the bodies of edges, in statics.
+        """
         answer, sliding = self.answer, self.sliding
         losses = self.iteration.losses(answer, sliding)
-        rubbed = losses.energy(static) + self.posed.loss(start, answer)
-        missed = self.posed.missed(answer)
-        loss = found.loss + rubbed
-        return with_parts(found, loss=loss, sliding=sliding, rows=rows, missed=missed)
+        rubbed = losses.energy(static=body is not None) + self.posed.loss(start, answer)
+        friction = None if body is None else losses.friction(body)
+        missed, loss = self.posed.missed(answer), found.loss + rubbed
+        return with_parts(
+            found, loss=loss, friction=friction, sliding=sliding, rows=rows, missed=missed
+        )
 
 
 def _lost(

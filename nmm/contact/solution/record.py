@@ -13,6 +13,7 @@ from nmm.frozen import MadeOnce, with_parts
 if TYPE_CHECKING:
     from nmm.contact.detection.contacts import Contacts
     from nmm.contact.detection.surface import Surface
+    from nmm.contact.laws.step_friction import StepFriction
     from nmm.contact.points.contact_rows import ContactRows
     from nmm.contact.points.joint_book import JointBook
     from nmm.contact.problem.step_problem import StepAnswer
@@ -35,6 +36,8 @@ class ContactSolution:
         Linear systems solved.
     loss
         Energy lost to friction and broken springs (J).
+    friction
+        What of it friction took in a step of statics; None in time.
     stopped
         Whether a bond could not hold and the step was given up for it.
     sliding
@@ -58,6 +61,7 @@ class ContactSolution:
     answer: "StepAnswer"
     passes: int
     loss: float
+    friction: "StepFriction | None" = None
     stopped: bool = False
     sliding: Floats = field(default_factory=lambda: np.zeros(0))
     rows: "ContactRows | None" = None

@@ -205,11 +205,16 @@ class Stepper:
             )
         return state, contacts
 
-    def correct(self, attempt: Attempt, start: State) -> None:
-        """Let the next attempt correct the step from ``start`` of which one was accepted."""
+    def correct(self, attempt: Attempt, start: State) -> bool:
+        """Let the next attempt correct the step from ``start`` of which one was accepted.
+
+        Return whether its friction is that of the whole step.
+        """
         laid_anew = self._lay is not None  # contacts go on as those of another model
-        if self.plan.contact is not None and attempt.solved is not None and not laid_anew:
-            self.plan.contact.correct(attempt.solved, start)
+        if self.plan.contact is None or attempt.solved is None or laid_anew:
+            return False
+        self.plan.contact.correct(attempt.solved, start)
+        return True
 
     def _relaid(self, change: "Change", new: Discretisation) -> State:
         """Solve blocks laid anew; places still count from where the run began."""

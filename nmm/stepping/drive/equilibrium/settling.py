@@ -83,10 +83,10 @@ def settle(
         if attempt.motion <= SETTLED * total.motion + least:
             return SettledStep(total, contacts)
         last, way = attempt, way + attempt.motion
-        stepper.correct(attempt, state)
+        whole = stepper.correct(attempt, state)
         attempt = stepper.attempt(_remembering(attempt.state, state), end, None, breaking)
         steady = steady + 1 if attempt.motion > SHRINKS * last.motion else 0
-        total, count = joined(total, attempt), count + 1
+        total, count = joined(total, attempt, whole), count + 1
         if stepper.anchored and steady >= STEADY and way > COLLAPSE * stepper.size:
             sentence = f"it moved by {way:.3g} m in {count} corrections that did not shrink"
             return SettledStep(replace(total, converged=False, sentence=sentence), contacts, True)
@@ -107,13 +107,22 @@ def rounding(stepper: Stepper) -> float:
     return WANDER * still if stepper.anchored else still
 
 
-def joined(first: Attempt, then: Attempt) -> Attempt:
-    """One attempt of a step and its correction, with the way of both."""
+def joined(first: Attempt, then: Attempt, whole: bool = False) -> Attempt:
+    """One attempt of a step and its correction, with the way of both.
+
+    Where the friction of the latter is that of the ``whole`` step it takes what it does on all of
+    the way, else on what is left of it.
+    """
     solved = then.solved
     if solved is not None and first.solved is not None:
         between = solved.between + first.solved.between
         loss, ways = solved.loss + first.solved.loss, first.solved.ways
-        solved = replace(solved, loss=loss, between=between, ways=ways)
+        before, friction = first.solved.friction, solved.friction
+        if whole and before is not None and friction is not None:
+            corrected = before.corrected(friction)
+            loss += corrected.taken - before.counted - friction.counted
+            friction = replace(corrected, counted=corrected.taken)
+        solved = replace(solved, loss=loss, friction=friction, between=between, ways=ways)
     return replace(
         then,
         increment=first.increment + then.increment,

@@ -57,6 +57,8 @@ RUNS = [
     ("quads", "cone", 0.25, -WAY),
     ("quads of degree 2", "cone", 0.5, WAY),
 ]
+# First solutions on triangles find seven times the friction that lasts.
+WORKS = [RUNS[1], RUNS[6], ("triangles", "penalty", 0.25, WAY)]
 
 
 @pytest.mark.parametrize(("cover", "enforcement", "increment", "way"), RUNS)
@@ -69,15 +71,15 @@ def test_a_dragged_block_rubs_by_its_weight_whatever_it_is_made_of(
     np.testing.assert_allclose(run.history["reaction:rope:x"][1:], expected, rtol=2e-6)
 
 
-@pytest.mark.parametrize(("cover", "enforcement", "increment", "way"), [RUNS[1], RUNS[6]])
+@pytest.mark.parametrize(("cover", "enforcement", "increment", "way"), WORKS)
 def test_friction_takes_its_force_times_the_way(
     cover: str, enforcement: str, increment: float, way: float
 ) -> None:
     run = dragged(cover, enforcement, increment, way)
-    # It grows from nothing in the first of four increments: half of that counts. First solutions,
-    # before corrections, know a weight beside stiff supports to some 1e-3.
-    work = (1 - increment / 2) * FRICTION * WAY
-    assert run.history["friction_loss"][-1] == pytest.approx(work, rel=1e-5)
+    # It grows from nothing in the first of four increments: half of that counts. Points on
+    # triangles are divided as the block moves, and know where a step begins their limits to 1e-3.
+    work, share = (1 - increment / 2) * FRICTION * WAY, 1e-3 if cover == "triangles" else 1e-5
+    assert run.history["friction_loss"][-1] == pytest.approx(work, rel=share)
 
 
 def test_a_point_without_force_has_slid_as_far_as_its_sides_have_moved() -> None:

@@ -1,0 +1,88 @@
+"""Friction of a whole step of statics that is corrected in the moved place: its force on the way.
+
+First solutions know the weight of a light block to a share of the far larger forces beside it, and
+so do corrections but the last one: what friction took is the force that lasts on the whole slip. It
+counts by the mean of its limit where the step began and its force at the end where contacts slide
+from the start, else by the latter. A correction may find other contacts, between the same bodies:
+the limits of the start are then those of the bodies in sum.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Any, Self
+
+import numpy as np
+
+from integration.arrays import Bools, Floats, Ints
+
+OF_A_CONTACT = ("key", "bodies", "limit", "from_start", "force", "slid")
+"""What there is of each contact."""
+
+
+@dataclass(frozen=True)
+class StepFriction:
+    """What friction does at the contacts of a step, and what a solution counted of it.
+
+    Attributes
+    ----------
+    key, bodies
+        (m,) identity, and one number for each pair of bodies.
+    limit, from_start
+        (m,) largest shear force where the step began (N), and whether it acted then.
+    force, slid
+        (m,) shear force at the end (N) and slip since the step began (m), without signs.
+    counted
+        Energy (J) that the solution itself counted for its own slip.
+    """
+
+    key: Ints
+    bodies: Ints
+    limit: Floats
+    from_start: Bools
+    force: Floats
+    slid: Floats
+    counted: float
+
+    @property
+    def taken(self) -> float:
+        """Energy (J) that friction took in the step."""
+        mean = np.where(self.from_start, (self.limit + self.force) / 2, self.force)
+        return float(mean @ self.slid)
+
+    def corrected(self, then: Self) -> Self:
+        """Return the friction of the step after the correction ``then``.
+
+        Bodies that it finds apart took what they did.
+        """
+        if np.array_equal(self.key, then.key):
+            limit, from_start = self.limit, self.from_start
+        else:
+            limit, from_start = self._in_sum(then)
+        apart = ~np.isin(self.bodies, then.bodies[then.force > 0])
+        lasts = np.isin(then.bodies, self.bodies[apart], invert=True)
+        given = replace(then, limit=limit, from_start=from_start)._at(lasts)
+        return given._beside(self._at(apart))
+
+    def _in_sum(self, then: Self) -> tuple[Floats, Bools]:
+        """Limits (m,) at the contacts of ``then``, shared as its forces are, and whether acting."""
+        pairs, place = np.unique(np.concatenate([self.bodies, then.bodies]), return_inverse=True)
+        mine, its = place[: len(self.key)], place[len(self.key) :]
+        limit, end = (
+            np.bincount(at, value, len(pairs))
+            for at, value in ((mine, self.limit), (its, then.force))
+        )
+        late = np.bincount(mine, self.limit * ~self.from_start, len(pairs))
+        share = np.divide(limit, end, out=np.zeros(len(pairs)), where=end > 0)
+        return share[its] * then.force, (late < limit / 2)[its] | (limit == 0)[its]
+
+    def _at(self, chosen: Bools) -> Self:
+        given: dict[str, Any] = {name: getattr(self, name)[chosen] for name in OF_A_CONTACT}
+        return replace(self, **given)
+
+    def _beside(self, other: Self) -> Self:
+        if not len(other.key):
+            return self
+        both: dict[str, Any] = {
+            name: np.concatenate([getattr(self, name), getattr(other, name)])
+            for name in OF_A_CONTACT
+        }
+        return replace(self, **both)
