@@ -24,7 +24,8 @@ help:
 demo: .venv/.kernels
 	.venv/bin/nmm demo
 
-test: .venv/.dev
+# Each worker of a fresh clone would compile the kernels of contact for itself.
+test: .venv/.dev .venv/.kernels
 	$(PY) -m pytest -n auto --dist worksteal -m "not slow"
 
 lint: .venv/.dev
