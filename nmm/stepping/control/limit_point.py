@@ -81,13 +81,13 @@ def limit_point(stepper: Stepper, state: State, factor: float) -> LimitPoint | N
         return run_path(stepper, recorder, at, control, end, _untold, keep)[1]
 
     last, verdict = run_path(stepper, quiet, at, control, end, _untold, keep)
-    peak = verdict.load_factor
+    peak = coarse = verdict.load_factor
     shown = verdict.code == FAILURE and peak is not None and last.load_factor < peak
     if shown and soft and peak == about.most:
         peak = refined(about, control, follow)
     stepper.restore(record)
     stepper.budget.taken = taken
-    if not shown or peak is None:
+    if not shown or peak is None or coarse is None:
         return None
     kind = "dissipation" if soft else "events"
     sentence = (
@@ -95,8 +95,9 @@ def limit_point(stepper: Stepper, state: State, factor: float) -> LimitPoint | N
         f"{last.load_factor:.6g} in equilibrium; it was followed as evidence and is not recorded: "
         f'[loading.control] type = "{kind}" records it'
     )
-    unstable = next((highest for highest, ways in passed if ways), peak)
-    if unstable < peak:
+    # Places of this path are compared with its own largest load, which shorter steps raise.
+    unstable = next((highest for highest, ways in passed if ways), coarse)
+    if unstable < coarse:
         sentence += (
             f"; the way there led through an unstable equilibrium at {unstable:.6g}: a load that "
             "grows may fail there already; lower [loading] increment and compare"
