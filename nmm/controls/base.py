@@ -68,8 +68,8 @@ class Control(ABC):
     """Whether the load factor itself is sought, at which the next bond is at its limit."""
     from_limit: ClassVar[bool] = False
     """Whether a path begins where a first bond is at its limit: without one it has no step."""
-    to_origin: ClassVar[bool] = False
-    """Whether it takes all to unload to its origin, as members that yield or slide do not."""
+    of_energy: ClassVar[bool] = False
+    """Whether it is energy that bonds lose: a step that unloads and takes none is no answer."""
 
     def idle(self, events: int, softened: bool) -> bool:
         """Whether nothing is controlled yet: the load is then what grows, up to the next event.

@@ -2,8 +2,9 @@
 
 Where all unloads to its origin the energy follows from loads and displacements (Verhoosel, Remmers
 and Gutierrez 2009). Slip under pressure is not taken back by unloading; what bonds at their limit
-lose as they open and slide further is known by jump whatever they do (`PathState.losing`). Before
-the first bond is at its limit nothing is lost, and the load is what grows.
+lose as they open and slide further is known by jump whatever they do (`PathState.losing`). What
+members lose that yield does not count. Before the first bond is at its limit nothing is lost, and
+the load is what grows.
 """
 
 from dataclasses import dataclass
@@ -24,7 +25,7 @@ class Dissipation(Control):
     """Energy that steps take (J)."""
 
     from_limit: ClassVar[bool] = True
-    to_origin: ClassVar[bool] = True
+    of_energy: ClassVar[bool] = True
 
     @classmethod
     def of(cls, table: "ControlTable") -> Self:

@@ -124,10 +124,11 @@ class Drive:
         if (contact := stepper.plan.contact) is None:
             return unseen
         from nmm.stepping.control.limit_point import LimitPoints
-        from nmm.stepping.control.making import hindrances, limits
+        from nmm.stepping.control.making import hindrances
 
-        # Where bonds soften the path is led by dissipation, as of what unloads to its origin.
-        astray = limits(stepper) and not contact.laws.brittle.all()
+        # No path has been followed yet from where loads grew beside what yields and softens.
+        limited = any(effect.limited for effect in stepper.plan.bent.values())
+        astray = limited and not contact.laws.brittle.all()
         if hindrances(stepper, self.made.formulation) or astray:
             return unseen
         return LimitPoints(stepper)

@@ -130,7 +130,7 @@ class _Following:
             if not event.attempt.converged:
                 return self._shorter(at, step, event.attempt)
             return self._happened(at, event, step)
-        if self.control.to_origin and not (found := taking(at, found)).attempt.converged:
+        if self.control.of_energy and not (found := taking(at, found)).attempt.converged:
             return self._shorter(at, step, found.attempt)
         after = self._accepted(at, found.attempt, found.way)
         if isinstance(after, Attempt):

@@ -30,19 +30,11 @@ def check_path(table: "ControlTable", stepper: "Stepper", formulation: "Formulat
         Where steps along a path cannot be solved, or it would have no beginning.
     """
     faults = hindrances(stepper, formulation)
-    if control_of(table).to_origin and (limited := limits(stepper)):
-        what = f'type: "{table.type}": {", ".join(limited)} that yield or slide do not unload to'
-        faults.append((f"{what} their origin", 'use "displacement", "opening" or "events"'))
     if control_of(table).from_limit and not faults and not Trials(stepper, {}).may_give_way():
         what = f'type: "{table.type}": no bond breaks, or begins to soften, at a limit of its own'
         faults.append((what, 'use "displacement" or "opening", or no normal_stiffness of bonds'))
     if faults:
         raise FormulationError(*(f"[loading.control] {what}: {why}" for what, why in faults))
-
-
-def limits(stepper: "Stepper") -> list[str]:
-    """Return the names of effects whose members yield or slide."""
-    return [name for name, effect in stepper.plan.bent.items() if effect.limited]
 
 
 def hindrances(stepper: "Stepper", formulation: "Formulation") -> list[tuple[str, str]]:
