@@ -36,6 +36,10 @@ class AboutPeak:
         The largest load factor, and that of the place behind.
     end
         How far what is controlled has come at the place behind; None before there is one.
+    peak
+        The largest load factor of all places and of events between them.
+    unstable
+        The same up to the first place that is unstable; None before there is one.
     """
 
     begin: OnPath
@@ -43,19 +47,32 @@ class AboutPeak:
     most: float = field(init=False)
     behind: float = field(init=False, default=0.0)
     end: float | None = field(init=False, default=None)
+    peak: float = field(init=False, default=0.0)
+    unstable: float | None = field(init=False, default=None)
 
     def __post_init__(self) -> None:
         self.most = self.begin.state.load_factor
         self._last = self.begin, self.record
 
-    def see(self, at: OnPath, record: "ContactRecord | None") -> None:
-        """Take the next place of the path."""
+    def see(self, at: OnPath, record: "ContactRecord | None", ways: int = 0) -> None:
+        """Take the next place of the path; so far one was unstable in ``ways`` at most."""
+        self.peak = at.peak
+        if ways and self.unstable is None:
+            self.unstable = at.peak
         if at.state.load_factor > self.most:
             (self.begin, self.record), self.end = self._last, None
             self.most = at.state.load_factor
         elif self.end is None:
             self.end, self.behind = at.gone, at.state.load_factor
         self._last = at, record
+
+    @property
+    def through(self) -> float | None:
+        """Load factor of an unstable place from which the load grows on; None without one.
+
+        The place of the largest load is none: it may lie a little behind the peak.
+        """
+        return self.unstable if self.unstable is not None and self.unstable < self.peak else None
 
     @property
     def coarse(self) -> bool:

@@ -59,35 +59,32 @@ def limit_point(stepper: Stepper, state: State, factor: float) -> LimitPoint | N
     record, taken, energy = stepper.remember(), stepper.budget.taken, _energy(stepper, state)
     soft = not contact.laws.brittle.all()
     control: Control = Dissipation(PART * energy) if soft else NextEvent(1.0)
-    end, quiet = PathEnd(factor, PEAK_PASSED), Recorder(stepper, Tee([]), [])
+    end = PathEnd(factor, PEAK_PASSED)
     at = replace(OnPath.at_start(state, control.increment), way=_way(stepper, state))
-    passed: list[tuple[float, int]] = []  # highest load factor and unstable ways of each place
-    about = AboutPeak(at, record)
-
-    def keep(at: OnPath) -> OnPath:
-        passed.append((at.peak, quiet.totals.ways))
-        about.see(at, stepper.remember())
-        return at
+    paths: list[AboutPeak] = []  # the coarse one, and shorter steps about its peak
 
     def follow(
         at: OnPath, record: "ContactRecord | None", control: Control, about: AboutPeak
-    ) -> RunVerdict:
+    ) -> tuple[State, RunVerdict]:
+        recorder = Recorder(stepper, Tee([]), [])
+        paths.append(about)
+
         def keep(at: OnPath) -> OnPath:
-            about.see(at, stepper.remember())
+            about.see(at, stepper.remember(), recorder.totals.ways)
             return at
 
         stepper.restore(record)
-        recorder = Recorder(stepper, Tee([]), [])
-        return run_path(stepper, recorder, at, control, end, _untold, keep)[1]
+        return run_path(stepper, recorder, at, control, end, _untold, keep)
 
-    last, verdict = run_path(stepper, quiet, at, control, end, _untold, keep)
-    peak = coarse = verdict.load_factor
+    about = AboutPeak(at, record)
+    last, verdict = follow(at, record, control, about)
+    peak = verdict.load_factor
     shown = verdict.code == FAILURE and peak is not None and last.load_factor < peak
     if shown and soft and peak == about.most:
-        peak = refined(about, control, follow)
+        peak = refined(about, control, lambda at, before, by, seen: follow(at, before, by, seen)[1])
     stepper.restore(record)
     stepper.budget.taken = taken
-    if not shown or peak is None or coarse is None:
+    if not shown or peak is None:
         return None
     kind = "dissipation" if soft else "events"
     sentence = (
@@ -95,9 +92,8 @@ def limit_point(stepper: Stepper, state: State, factor: float) -> LimitPoint | N
         f"{last.load_factor:.6g} in equilibrium; it was followed as evidence and is not recorded: "
         f'[loading.control] type = "{kind}" records it'
     )
-    # Places of this path are compared with its own largest load, which shorter steps raise.
-    unstable = next((highest for highest, ways in passed if ways), coarse)
-    if unstable < coarse:
+    unstable = min((one.through for one in paths if one.through is not None), default=None)
+    if unstable is not None:
         sentence += (
             f"; the way there led through an unstable equilibrium at {unstable:.6g}: a load that "
             "grows may fail there already; lower [loading] increment and compare"

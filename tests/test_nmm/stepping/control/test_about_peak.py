@@ -51,3 +51,21 @@ def test_where_shorter_steps_find_no_balance_the_load_of_the_longer_ones_stays()
     lost = RunVerdict(FAILED, "no balance", 0.0)
     coarse, fine = found(lambda gone: PEAK - abs(gone - 0.0712), lambda *what: lost)
     assert fine == coarse
+
+
+@pytest.mark.parametrize(
+    ("loads", "ways", "through"),
+    [
+        ([1.0, 2.0, 3.0, 2.5], [0, 1, 1, 1], 2.0),
+        ([1.0, 2.0, 3.0, 2.5], [0, 0, 1, 1], None),
+        ([1.0, 3.0, 2.0, 2.5], [0, 0, 1, 1], None),
+    ],
+)
+def test_a_path_leads_through_an_unstable_place_where_its_load_grows_beyond(loads, ways, through):
+    start = OnPath(SimpleNamespace(load_factor=0.5), None, STEP, None)
+    about, most = AboutPeak(start, None), 0.0
+    for load, many in zip(loads, ways, strict=True):
+        most = max(most, load)
+        at = OnPath(SimpleNamespace(load_factor=load), None, STEP, None, peak=most)
+        about.see(at, None, many)
+    assert about.through == through
