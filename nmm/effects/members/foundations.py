@@ -5,8 +5,10 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from integration.arrays import Floats
+from integration.contraction import summed
 from integration.plane_vectors import counterclockwise
 from nmm.assembly.places import Place, on_segment
+from nmm.assembly.state import State
 from nmm.effects.base import Setup
 from nmm.effects.members.ends import MemberEnds, nowhere
 from nmm.effects.members.fibres import Fibres
@@ -53,6 +55,18 @@ class Foundations(Linked):
         names = tuple(one.name for one, _ in parts)
         axial = Fibres.of(laws, np.ones(len(area)), area)
         return cls(setup, Members.without_slip(names, places, links, axial))
+
+    def history(self, state: State) -> dict[str, float]:
+        """Return the resultant (N) on the block of each, and its part across the edge (tension)."""
+        members, row = self.members, dict[str, float]()
+        force, along = self._answers.of(state).axial.force, members.links.lines(state).along
+        for (name, side), of in _sides_of(members).items():  # a handful of foundations
+            if side == "across":
+                row[f"{name}:force"] = float(summed(force[of]))
+            x, y = summed(-force[of, None] * along[of]).tolist()
+            row[f"{name}:x"] = row.get(f"{name}:x", 0.0) + x
+            row[f"{name}:y"] = row.get(f"{name}:y", 0.0) + y
+        return row
 
     def _offset_on(self, members: Members, change: "Change") -> Floats:
         """See `Linked`: that of the nearest point of the edge; nan on new material."""

@@ -21,7 +21,7 @@ UNITS_OF_COLUMNS = {
     r"time|load_factor|bonded|broken|splitting:.*|.*:share": "1",
     r".*_energy|energy:.*|external_work|.*_loss|(damping_)?loss:.*|heat:(taken:.*|stored)": "J",
     r"heat:(lowest|highest)": "K",
-    r"reaction:.*|.*:force|water pressures:.*": "N",
+    r"reaction:.*|.*:force|water pressures:.*|foundations:.*": "N",
     r"monitor:.*|viscous boundaries:.*|.*:slip|.*growth|.*:length|.*opening|.*:aperture": "m",
     r"penetration|(fracture|cohesive zones):.*:[xy]": "m",
     r"fracture:.*:K_I+": "Pa m^0.5",
@@ -33,7 +33,9 @@ UNITS_OF_COLUMNS = {
 """Units of the columns whose names match; the others say how the answer was found."""
 
 PLACES = re.compile(r"(fracture|cohesive zones):.*:[xy]")
-VECTORS = re.compile(r"(monitor|viscous boundaries):.*:u[xy]|(reaction|water pressures):.*:[xy]")
+VECTORS = re.compile(
+    r"(monitor|viscous boundaries):.*:u[xy]|(reaction|water pressures|foundations):.*:[xy]"
+)
 
 HELD_TO = 1e-8
 """Of the largest number of a unit and family; residuals are held to 1e-8 too."""
@@ -126,9 +128,7 @@ def compared(first: "Run", other: "Run", image: Image, to: float = HELD_TO) -> C
             return holds(False, f"{len(one['time'])} steps, its image {len(there['time'])}")
         rows = slice(-1, None)
     units = {_unit(name) for name in one} - {None, "m" if NEUTRAL in words else None}
-    # Shear along an edge changes its sign in a mirror, and is part of this number.
-    signed = "foundations:" if np.linalg.det(image.turn) < 0 else "none:"
-    known = [name for name in one if _unit(name) and not name.startswith(signed)]
+    known = [name for name in one if _unit(name)]
     wanted = {name: _there(name, first, image) for name in known}
     sizes, least = _sizes(wanted), _least(other, image, to)
     worst, where = 0.0, "none"

@@ -96,6 +96,36 @@ def test_a_rigid_raft_settles_and_tilts_as_its_springs_ask():
     assert found.history["monitor:left:ux"][-1] == pytest.approx(40e3 / 20e6, rel=1e-4)
 
 
+COVERS = {
+    "block": "",
+    "triangles": '[formulation.cover]\ntype = "triangles"\nsize = 0.8\n',
+    "cubic": '[formulation.cover]\ntype = "quads"\nsize = 2.0\ndegree = 3\n',
+}
+
+
+@pytest.mark.parametrize("cover", COVERS)
+@pytest.mark.parametrize("carries", ["both", "compression"])
+def test_forces_of_a_foundation_are_those_of_its_whole_edge(cover, carries):
+    """It bears the load, however many points it is integrated at; its edge falls by 30 degrees."""
+    turn = np.array([[0.75**0.5, 0.5], [-0.5, 0.75**0.5]])  # rows: along the edge, out of the raft
+    corners, out = np.array([[0, 0], [4, 0], [4, 1], [0, 1]]) @ turn, [40e3, -400e3] @ turn
+    text = RAFT.format(more=f'carries = "{carries}"', x=2.5)
+    for given, there in (
+        ("[[0, 0], [4, 0], [4, 1], [0, 1]]", corners),
+        ("[[0, 0], [4, 0]]", corners[:2]),
+        ("[4, 0]", corners[1]),
+        ("[2.5, 1]", np.array([2.5, 1]) @ turn),
+        ('["40 kN", "-400 kN"]', out),
+    ):
+        assert given in text
+        text = text.replace(given, str(there.tolist()))
+    found = nmm.run(nmm.parse_scene("thickness = 0.2\n" + text + COVERS[cover])).history
+    # Equilibrium, to the residual of statics.
+    assert found["foundations:soil:x"][-1] == pytest.approx(-out[0], rel=1e-8)
+    assert found["foundations:soil:y"][-1] == pytest.approx(-out[1], rel=1e-8)
+    assert found["foundations:soil:force"][-1] == pytest.approx(-400e3, rel=1e-8)
+
+
 def test_a_foundation_without_tension_lets_the_far_edge_lift_off():
     more = 'carries = "compression"'
     found = nmm.run(nmm.parse_scene(RAFT.format(more=more, x=3.5).replace("40 kN", "0 N", 1)))
