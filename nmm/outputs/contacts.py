@@ -32,7 +32,7 @@ class CrackOpening(Output):
     def history(self, view: View) -> Mapping[str, float]:
         """Return the widest opening (m)."""
         broken = self.fields(view)["crack_opening"].values.max(initial=0.0)
-        faces = self._faces(view.model).jumps(view.state)[1].max(initial=0.0)
+        faces = self._faces(view.model).widest(view.state).max(initial=0.0)
         return {"crack_opening": float(max(broken, faces))}
 
     def _faces(self, model: Model) -> CrackFaces:

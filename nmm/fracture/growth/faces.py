@@ -61,7 +61,7 @@ class CrackFaces:
 
         ``names`` gives the name of each crack by its number.
         """
-        row, opening = {}, self.jumps(state)[1]
+        row, opening = {}, self.widest(state)
         for number, name in names.items():  # a handful
             row[f"{name}:length"] = float(np.hypot(*np.diff(cracks[number], axis=0).T).sum())
             row[f"{name}:opening"] = float(opening[self.crack == number].max(initial=0.0))
@@ -72,17 +72,25 @@ class CrackFaces:
 
         Opening and sliding are those at the middles of the faces; open is positive.
         """
+        ends, opening, sliding = self._at_ends(state)
+        return ends.reshape(-1, 4), opening.mean(axis=1), sliding.mean(axis=1)
+
+    def widest(self, state: State) -> Floats:
+        """Return the opening (m,) of the faces at the end where each is wider (m)."""
+        return np.asarray(self._at_ends(state)[1].max(axis=1))
+
+    def _at_ends(self, state: State) -> tuple[Floats, Floats, Floats]:
+        """Return middles (m, 2, 2), openings (m, 2) and ways along (m, 2) of the ends (m)."""
         one, two = (
             side.place(state.frames, state.deformation).reshape(-1, 2, 2)
             for side in (self.left, self.right)
         )
-        ends = (one + two) / 2
         # In small strain faces do not turn with the strain, however large it is.
         shape = state.deformation if self.bend else np.zeros_like(state.deformation)
         flanks = self.left.place(state.frames, shape) + self.right.place(state.frames, shape)
         along = flanks[1::2] - flanks[::2]
-        along = along / np.maximum(np.hypot(*along.T), 1e-300)[:, None]
+        along = (along / np.maximum(np.hypot(*along.T), 1e-300)[:, None])[:, None]
         # The material lies on the left of an edge.
-        jump = (one - two).mean(axis=1)
-        opening = cross(along, jump)
-        return ends.reshape(-1, 4), opening, (along * jump).sum(axis=1)
+        jump = one - two
+        opening = cross(np.repeat(along, 2, axis=1).reshape(-1, 2), jump.reshape(-1, 2))
+        return (one + two) / 2, opening.reshape(-1, 2), (along * jump).sum(axis=2)
