@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Floats, columns
 
 # Turns columns by 90 degrees, counter-clockwise.
 QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
@@ -20,9 +20,9 @@ def cross(a: Floats, b: Floats) -> Floats:
 
 def counterclockwise(vectors: Floats) -> Floats:
     """Return vectors (m, 2) turned by 90 degrees: (1, 0) gives (0, 1)."""
-    return np.stack([-vectors[:, 1], vectors[:, 0]], axis=1)
+    return columns(-vectors[:, 1], vectors[:, 0])
 
 
 def clockwise(vectors: Floats) -> Floats:
     """Return vectors (m, 2) turned by -90 degrees: (0, 1) gives (1, 0)."""
-    return np.stack([vectors[:, 1], -vectors[:, 0]], axis=1)
+    return columns(vectors[:, 1], -vectors[:, 0])

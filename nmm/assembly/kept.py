@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, ClassVar, Generic, ParamSpec, TypeVar
 from integration.arrays import Floats
 
 if TYPE_CHECKING:
-    from nmm.assembly.state import State
+    from nmm.assembly.state import Frames, State
 
 Given = ParamSpec("Given")
 T = TypeVar("T")
@@ -37,18 +37,49 @@ class Kept(Generic[Given, T]):
         self._known = []
 
 
-class KeptOfStates(Kept[["State"], T]):
+class KeptOfStates(Generic[T]):
     """Values of the last two states, told apart by identity."""
 
     def __init__(self, make: Callable[["State"], T]) -> None:
-        super().__init__(make, id)
+        self._make = make
+        self._known: list[tuple[State, T]] = []
+
+    def of(self, state: "State") -> T:
+        """Return the value of a state, computed unless it is kept."""
+        for known, value in self._known:
+            if known is state:
+                return value
+        value = self._make(state)
+        self._known = [(state, value), *self._known[:1]]
+        return value
+
+    def forget(self) -> None:
+        """Drop all values: what they are computed with has changed."""
+        self._known = []
 
 
-class KeptOfPlaces(Kept[["State"], T]):
+class KeptOfPlaces(Generic[T]):
     """Values that depend on the place of the material alone, not on rates or time."""
 
+    most: ClassVar[int] = 2
+
     def __init__(self, make: Callable[["State"], T]) -> None:
-        super().__init__(make, _place)
+        self._make = make
+        self._known: list[tuple[Frames, Floats, T]] = []
+
+    def of(self, state: "State") -> T:
+        """Return the value of the place of a state, computed unless it is kept."""
+        frames, deformation = state.frames, state.deformation
+        for place, bent, value in self._known:
+            if place is frames and bent is deformation:
+                return value
+        value = self._make(state)
+        self._known = [(frames, deformation, value), *self._known][: self.most]
+        return value
+
+    def forget(self) -> None:
+        """Drop all values: what they are computed with has changed."""
+        self._known = []
 
 
 class KeptOfInstants(Kept[["State", float], T]):
@@ -58,13 +89,25 @@ class KeptOfInstants(Kept[["State", float], T]):
         super().__init__(make, lambda state, time: (*_place(state), time))
 
 
-class KeptOfArray(Kept[[Floats], T]):
-    """The value of an array that is never changed, kept until another array is given."""
-
-    most = 1
+class KeptOfArray(Generic[T]):
+    """The values of the last two arrays, which are never changed."""
 
     def __init__(self, make: Callable[[Floats], T]) -> None:
-        super().__init__(make, id)
+        self._make = make
+        self._known: list[tuple[Floats, T]] = []
+
+    def of(self, array: Floats) -> T:
+        """Return the value of an array, computed unless it is kept."""
+        for known, value in self._known:
+            if known is array:
+                return value
+        value = self._make(array)
+        self._known = [(array, value), *self._known[:1]]
+        return value
+
+    def forget(self) -> None:
+        """Drop all values: what they are computed with has changed."""
+        self._known = []
 
 
 def _place(state: "State") -> tuple[int, int]:

@@ -46,8 +46,9 @@ class MaterialPoints:
         """
         local = self.rows.apply(state.velocity)
         if turning is not None:
-            rate, slower = (one[self.body, None] for one in turning)
-            arm = rate * self.rows.apply(state.deformation) - slower * self.arm
+            rate, slower = turning
+            bent = self.rows.apply(state.deformation)
+            arm = rate[self.body, None] * bent - slower[self.body, None] * self.arm
             local = local + counterclockwise(arm)
         return state.frames.to_global(self.body, local)
 

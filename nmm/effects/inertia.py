@@ -9,7 +9,7 @@ from integration.arrays import Floats
 from integration.contraction import some
 from integration.sparse import csc_array
 from nmm.assembly.applied_forces import AppliedForces
-from nmm.assembly.kept import KeptOfStates
+from nmm.assembly.kept import KeptOfArray, KeptOfStates
 from nmm.assembly.model import Model
 from nmm.assembly.moving.spin import SpinOfStep
 from nmm.assembly.state import State
@@ -43,6 +43,7 @@ class Inertia(Effect):
         self._spins = KeptOfStates(self._spin)
         self._outwards = KeptOfStates(self._centrifugal)
         self._forces = KeptOfStates(self._force)
+        self._stretches = KeptOfArray(self._stretched)
 
     @cached_property
     def mass(self) -> csc_array:
@@ -82,12 +83,12 @@ class Inertia(Effect):
         spin = share * self.spin(state)
         if end is not None:
             last, half_way = self.spin(end), (state.deformation + end.deformation) / 2
-            mean = (spin + last) / 2 * self._stretch(half_way)
+            mean = (spin + last) / 2 * self._stretched(half_way)
             return SpinOfStep((spin**2 + last**2) / 2, mean)
         if not some(spin):
             return None
         half_way = state.deformation + step / 2 * state.velocity
-        return SpinOfStep(spin**2, spin * self._stretch(half_way))
+        return SpinOfStep(spin**2, spin * self._stretched(half_way))
 
     def pull(self, spin: SpinOfStep) -> Floats:
         """Return the mean pull outwards (n,) of a step (N)."""
@@ -107,7 +108,7 @@ class Inertia(Effect):
         if not self._axes_turn:
             return 0.0, 0.0
         first, last = self.spin(before), self.spin(after)
-        begun, ended = self._stretch(before.deformation), self._stretch(after.deformation)
+        begun, ended = self._stretches.of(before.deformation), self._stretches.of(after.deformation)
         more = (last - first) * (first + last) * (begun + ended) / 4
         more += (first**2 + last**2) * (ended - begun) / 4
         if used is not None:
@@ -123,10 +124,10 @@ class Inertia(Effect):
         spin = self.spin(state)
         if not (self._axes_turn and some(spin)):
             return None
-        slower = spin * self._stretch(state.deformation)
+        slower = spin * self._stretches.of(state.deformation)
         return spin - slower, slower
 
-    def _stretch(self, deformation: Floats) -> Floats:
+    def _stretched(self, deformation: Floats) -> Floats:
         """Return ``2 s / J0`` (B,) of the bodies with a deformation (n,)."""
         manifold = self._model.manifold
         parts = self._turns[2] * deformation

@@ -1,12 +1,12 @@
 """Where a run writes to: the protocol of the step loop's output, and the sink that keeps it all."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.frozen import with_parts
 from nmm.results.frame import Frame, Topology
 from nmm.results.summary import Summary
 
@@ -64,7 +64,7 @@ class MemorySink:
 
     def frame(self, frame: Frame) -> None:
         """Keep one frame."""
-        self.frames.append(replace(frame, topology=len(self.topologies) - 1))
+        self.frames.append(with_parts(frame, topology=len(self.topologies) - 1))
 
     def row(self, values: Mapping[str, float]) -> None:
         """Keep one row of the history."""

@@ -194,7 +194,11 @@ class Memory:
 
 
 def _alike(a: StepProblem, b: StepProblem, names: tuple[str, ...]) -> bool:
-    return all(_equal(getattr(a, name), getattr(b, name)) for name in names)
+    for name in names:
+        one, other = getattr(a, name), getattr(b, name)
+        if one is not other and not _equal(one, other):
+            return False
+    return True
 
 
 def _equal(a: Any, b: Any) -> bool:

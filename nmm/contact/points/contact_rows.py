@@ -57,7 +57,7 @@ def contact_rows(
     ``turn`` adds what comes of lines and bodies that turn.
     """
     table = sides.table if sites is None else sites.table
-    columns, *values = side_rows(
+    columns, along_normal, along_tangent = side_rows(
         table,
         frames.rotation,
         (contacts.edge_a, contacts.edge_b) if sites is None else sites.rows_of(contacts),
@@ -65,17 +65,14 @@ def contact_rows(
         contacts.normal,
     )
     if turn is not None:
-        turn(*values)
+        turn(along_normal, along_tangent)
     m, width = columns.shape
     offsets = np.arange(m + 1, dtype=np.int32) * np.int32(width)
     shape = (m, sides.manifold.n_unknowns)
     # Columns of their own: sorting changes them in place; offsets too where entries are summed.
     others = columns.flatten(), offsets.copy() if sides.repeats else offsets
-    patterns = (columns.ravel(), offsets), others
-    normal, tangent = (
-        made_of(csr_array, value.ravel(), *pattern, shape)
-        for value, pattern in zip(values, patterns, strict=True)
-    )
+    normal = made_of(csr_array, along_normal.ravel(), columns.ravel(), offsets, shape)
+    tangent = made_of(csr_array, along_tangent.ravel(), *others, shape)
     if sides.repeats:
         for part in (normal, tangent):
             part.sum_duplicates()

@@ -24,10 +24,10 @@ class EnergyPlan(NamedEffects):
 
     def work(self, before: State, after: State) -> float:
         """Return the work of all applied forces (J)."""
-        return sum(
-            self.timed(name, partial(effect.work, before, after))
-            for name, effect in self.named("work")
-        )
+        done = 0.0
+        for name, effect in self.named("work"):
+            done += self.timed(name, partial(effect.work, before, after))
+        return done
 
     def losses(self, before: State, after: State) -> dict[str, float]:
         """Return what each effect took for good in an accepted step (J)."""
@@ -47,12 +47,12 @@ class EnergyPlan(NamedEffects):
 
     def energies(self, state: State) -> dict[str, float]:
         """Return the energy (J) that effects store, by its columns of the history."""
-        return {
-            column: sum(
-                [self.timed(name, partial(one.energy, state)) for name, one in effects], start=0.0
-            )
-            for column, effects in self._stores
-        }
+        found = {}
+        for column, effects in self._stores:
+            found[column] = 0.0
+            for name, one in effects:
+                found[column] += self.timed(name, partial(one.energy, state))
+        return found
 
     @cached_property
     def _stores(self) -> list[tuple[str, list[tuple[str, Effect]]]]:

@@ -30,10 +30,6 @@ class Hooks:
     seconds: dict[str, float] = field(default_factory=partial(defaultdict, float))
     hooks: dict[str, list[tuple[str, Effect]]] = field(default_factory=dict)
 
-    def spend(self, name: str, seconds: float) -> None:
-        """Count seconds for an effect."""
-        self.seconds[name] += seconds
-
     def having(self, hook: str) -> list[Effect]:
         """Return the effects that define a hook."""
         return [effect for _, effect in self.named(hook)]
@@ -49,5 +45,5 @@ class Hooks:
         """Return what a call returns, its seconds counted for an effect."""
         start = perf_counter()
         result = call()
-        self.spend(name, perf_counter() - start)
+        self.seconds[name] += perf_counter() - start
         return result

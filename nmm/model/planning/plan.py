@@ -86,7 +86,7 @@ class Plan(EnergyPlan):
                 part = effect.force(state, end)
             else:
                 part = half.force(effect, state, end)
-            self.spend(name, perf_counter() - start)
+            self.seconds[name] += perf_counter() - start
             if part.shape != shape:
                 raise SolveError(
                     f"{name}: the force has the shape {part.shape}: expected {shape}, one "
@@ -160,17 +160,18 @@ class Plan(EnergyPlan):
     def received_stress_energy(self, state: State) -> float:
         """Return the energy (J) at held edges of stresses that effects add."""
         return sum(
-            effect.received_stress_energy(state) for effect in self.having("received_stress_energy")
+            effect.received_stress_energy(state)
+            for _, effect in self.named("received_stress_energy")
         )
 
     def added_stress(self, state: State) -> Floats | None:
         """Return the mean stress (E, 3) beyond that of the strain; None where nothing adds any."""
-        parts = [effect.mean_stress(state) for effect in self.having("mean_stress")]
+        parts = [effect.mean_stress(state) for _, effect in self.named("mean_stress")]
         return np.asarray(sum(parts[1:], start=parts[0])) if parts else None
 
     def border(self, state: State, end: Instant) -> tuple[csr_array, Floats] | None:
         """Return conditions on the step's unknowns that multipliers hold, None without any."""
-        found = [effect.border(state, end) for effect in self.having("border")]
+        found = [effect.border(state, end) for _, effect in self.named("border")]
         parts = [part for part in found if part is not None]
         if not parts:
             return None
@@ -225,7 +226,7 @@ class Plan(EnergyPlan):
 
     def work_correction(self, before: State, after: State, increment: Floats, span: Span) -> float:
         """Return what the rise of bent forces seems to do in a step and does not (J)."""
-        bent = [one for one in self.having("work_correction") if one.nonlinear]
+        bent = [one for _, one in self.named("work_correction") if one.nonlinear]
         return sum(one.work_correction(before, after, increment, span) for one in bent)
 
     @cached_property

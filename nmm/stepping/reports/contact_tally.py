@@ -34,7 +34,7 @@ def tallied(
     gap[len(gap) - len(contact.record.book.lost) :] = np.inf
     overlap = ends = -float(least(gap, initial=0.0))
     turned = 0.0
-    if len(contacts):
+    if gap.size:
         turned = float(largest(np.abs(after.frames.angle - before.frames.angle), initial=0.0))
     if turned * attempt.motion > MIDPOINT_GAPS * overlap:  # gaps are solved along straight ways
         acts = (contacts.normal_force < 0) & ~contacts.is_joint

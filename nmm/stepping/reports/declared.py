@@ -8,7 +8,6 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.effects.base import defines
 from nmm.errors import NmmError
 from nmm.model.effects_table import OWN
 from nmm.model.planning.plan import Plan
@@ -47,10 +46,9 @@ class DeclaredOutputs:
         return found if members is None else found | members.quantities
 
     def _fields(self, plan: Plan, view: View) -> Iterator[tuple[str, str, Quantity]]:
-        for name, effect in plan.effects.items():
-            if defines(effect, "outputs"):
-                for key, one in effect.outputs(view.state).items():
-                    yield name, f"{name.removeprefix(OWN)}:{key}", one
+        for name, effect in plan.named("outputs"):
+            for key, one in effect.outputs(view.state).items():
+                yield name, f"{name.removeprefix(OWN)}:{key}", one
         for name, output in self.outputs.items():
             for key, one in output.fields(view).items():
                 yield name, key, one

@@ -118,8 +118,11 @@ class EnergyTotals:
     @property
     def made(self) -> float:
         """Energy (J) that came from nowhere."""
-        gained = self.in_store - self.stored_first - self.change_energy
-        return gained + self.dissipated - self.work
+        return self._made(self.in_store, self.dissipated)
+
+    def _made(self, total: float, lost: float) -> float:
+        """Return the same of what is stored in total and lost (J)."""
+        return total - self.stored_first - self.change_energy + lost - self.work
 
     @property
     def dissipated(self) -> float:

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Floats, columns
 from nmm.assembly.state import State
 from nmm.effects.view import View
 from nmm.model.planning.pressures import patch_pressures
@@ -50,8 +50,9 @@ def framed(
 
 def _stress(stepper: Stepper, state: State) -> Floats:
     """Return the mean Cauchy stress (E, 3) of the elements in global axes (Pa)."""
-    model, added = stepper.model, stepper.plan.added_stress(state)
-    stress = model.stress(state, patch_pressures(stepper.plan, model, state))
+    model, plan = stepper.model, stepper.plan
+    added = plan.added_stress(state)
+    stress = model.stress(state, patch_pressures(plan, model, state))
     if added is not None:
         stress = stress + added
     return _turned(stress, state.frames.angle[model.manifold.element_body])
@@ -62,7 +63,7 @@ def _turned(stress: Floats, angle: Floats) -> Floats:
     mean, half = (stress[:, 0] + stress[:, 1]) / 2, (stress[:, 0] - stress[:, 1]) / 2
     c, s = np.cos(2 * angle), np.sin(2 * angle)
     off = half * c - stress[:, 2] * s
-    return np.stack([mean + off, mean - off, half * s + stress[:, 2] * c], axis=1)
+    return columns(mean + off, mean - off, half * s + stress[:, 2] * c)
 
 
 def _contact_arrays(stepper: Stepper, view: View) -> dict[str, Any]:
@@ -82,7 +83,7 @@ def _contact_arrays(stepper: Stepper, view: View) -> dict[str, Any]:
         "contact_position": contact.partners.position(contacts, view.state),
         "contact_normal": contacts.normal,
         "contact_length": contacts.length,
-        "contact_force": np.stack([contacts.normal_force, contacts.shear_force], axis=1),
+        "contact_force": columns(contacts.normal_force, contacts.shear_force),
         "contact_gap": contacts.distance,
         "contact_state": contacts.state,
     }

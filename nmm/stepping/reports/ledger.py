@@ -176,7 +176,8 @@ class Ledger(EnergyTotals):
             self.throughput, abs(self.work), abs(total), abs(self.stored_first), abs(lost)
         )
         supports = self.energies.get("support_energy", 0.0)
-        now = EnergySources(self.made, self.given, -self.contact_loss, self.friction_loss, supports)
+        made = self._made(total, lost)
+        now = EnergySources(made, self.given, -self.contact_loss, self.friction_loss, supports)
         if not audited:
             return with_parts(self, throughput=largest, last=now, lowest=now)
         return with_parts(
@@ -185,7 +186,7 @@ class Ledger(EnergyTotals):
             in_step=self._largest(self.in_step, now, self.last, time),
             in_run=self._largest(self.in_run, now, self.lowest, time),
             last=now,
-            lowest=min(self.lowest, now, key=lambda account: account.made),
+            lowest=now if made < self.lowest.made else self.lowest,
         )
 
     def _largest(

@@ -142,15 +142,17 @@ class ContactSearch:
         """
         if motion is None:
             return self._further(equations, sought, solved, FURTHER * result.motion)
-        missed = self.contact.overlooked(sought.contacts, motion)
+        contact = self.contact
+        missed = contact.overlooked(sought.contacts, motion)
         if missed is not None and sought.crossings < CROSSING_SOLUTIONS:
             crossed, count = joined(sought.crossed, missed), sought.crossings + 1
             return self._anew(equations, replace(sought, crossed=crossed, crossings=count))
         if not self.turns(equations) or sought.midpoints == MIDPOINT_SOLUTIONS:
             return None
         given = solved, equations.state, result.state, sought.midpoint
-        half = self.contact.momentum.midpoint(*given)
-        if half is None and not (len(sought.contacts) and self._misjudged(equations, result.state)):
+        half = contact.momentum.midpoint(*given)
+        meets = sought.contacts.gap.size > 0
+        if half is None and not (meets and self._misjudged(equations, result.state)):
             return None
         half = half or sought.midpoint
         forces = solved.answer.normal_force, solved.answer.shear_force

@@ -59,7 +59,9 @@ class Assembly:
         force = applied - line.force
         among, rests = None, step is None or plan.inertia is None
         if model.manifold.dependent or not rests:
-            among = sum((np.abs(part) for part in parts), start=np.abs(line.force))
+            among = np.abs(line.force)
+            for part in parts:
+                among = among + np.abs(part)
         if rests:
             nothing = ROUNDING if matter is None else BALANCED
             held = self._anchored(line.stiffness) if anchored else line.stiffness

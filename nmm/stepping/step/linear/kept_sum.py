@@ -26,5 +26,7 @@ def _are(some: Parts, others: Parts) -> bool:
     """Whether factors and matrices are the same objects."""
     if len(some) != len(others):
         return False
-    pairs = zip(some, others, strict=True)
-    return all(a == b and one is other for (a, one), (b, other) in pairs)
+    for (a, one), (b, other) in zip(some, others, strict=True):
+        if a != b or one is not other:
+            return False
+    return True
