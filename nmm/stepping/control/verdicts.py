@@ -34,7 +34,8 @@ def no_balance(at: OnPath, attempt: Attempt) -> RunVerdict:
     """Return the verdict where no balance was found further on."""
     peak, factor = at.peak, at.state.load_factor
     if attempt.singular:
-        return _failure(at, "nothing holds it after the last bonds broke", attempt.sentence)
+        when = " after the last bonds broke" if at.events else ""
+        return _failure(at, f"nothing holds it{when}", attempt.sentence)
     if fell(at):
         return _failure(at, "a limit point was passed", attempt.sentence)
     sentence = (
