@@ -31,6 +31,7 @@ from nmm.stepping.step.nonlinear.newton import newton
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
+    from nmm.constraints.driven_bodies import DrivenBodies
     from nmm.contact.points.contact_points import ContactPoints
     from nmm.contact.solution.record import Breaking, BrokenBonds
     from nmm.controls.path_equation import PathEquation
@@ -164,12 +165,20 @@ class StepSolver:
         work = booked(equations, found.increment, found.solved, missed, off, driven)
         return with_parts(found, booked=work)
 
+    def carried_way(self, state: State, end: Instant) -> float:
+        """Return how far (m) driven ground carries a body that may touch at most."""
+        driven = self._driven(state, end)
+        return 0.0 if driven is None else float(np.hypot(*driven.way.T).max())
+
+    def _driven(self, state: State, end: Instant) -> "DrivenBodies | None":
+        supports = self._current.plan.supports
+        if self._touching is None or supports is None or state.frames.way is None:
+            return None
+        return supports.driven(state, end) if self._kinematics.turns else None
+
     def _carriage(self, state: State, end: Instant) -> Carriage | None:
         """Return where driven ground has carried bodies that may touch; None where nowhere."""
-        model, supports, way = self._current.model, self._current.plan.supports, state.frames.way
-        if self._touching is None or supports is None or way is None:
-            return None
-        driven = supports.driven(state, end) if self._kinematics.turns else None
+        model, driven = self._current.model, self._driven(state, end)
         if driven is None:
             return None
         bodies, rigid = np.arange(len(driven.way)), np.zeros((len(driven.way), 3))

@@ -205,6 +205,10 @@ class Stepper:
             )
         return state, contacts
 
+    def carried_way(self, state: State, end: Instant) -> float:
+        """Return how far (m) driven ground carries a body that may touch in a step, at most."""
+        return self._steps.carried_way(state, end)
+
     def correct(self, attempt: Attempt, start: State) -> bool:
         """Let the next attempt correct the step from ``start`` of which one was accepted.
 

@@ -23,7 +23,7 @@ def evidence(
     attempt = found.attempt
     proof = carried(stepper, state, factor)
     said = [proof.sentence] if proof is not None and proof.fails else []
-    far = too_far(stepper)
+    far = too_far(stepper, found.carried)
     # Where bodies bend by any angle a tangent may lead far away from an equilibrium that is near.
     moves = attempt.motion > far and not stepper.kinematics.finite
     if (found.mechanism or moves) and np.isfinite(attempt.increment).all():

@@ -41,17 +41,22 @@ COLLAPSE, BENDING = 0.05, 1.0
 class SettledStep:
     """An attempt with its corrections, and the contacts as they are left.
 
-    ``mechanism`` says that corrections went on without end.
+    ``mechanism`` says that corrections went on without end; ``carried`` how far driven ground
+    carries a body in it (m).
     """
 
     attempt: Attempt
     contacts: "ContactPoints | None"
     mechanism: bool = False
+    carried: float = 0.0
 
 
-def too_far(stepper: Stepper) -> float:
-    """Return the largest motion (m) in one increment that is no collapse."""
-    return (BENDING if stepper.kinematics.finite else COLLAPSE) * stepper.size
+def too_far(stepper: Stepper, carried: float = 0.0) -> float:
+    """Return the largest motion (m) in one increment that is no collapse.
+
+    What driven ground has ``carried`` so far (m) has not collapsed.
+    """
+    return (BENDING if stepper.kinematics.finite else COLLAPSE) * stepper.size + carried
 
 
 def settle(
@@ -71,12 +76,13 @@ def settle(
     contacts: ContactPoints | None = None
     least = rounding(stepper)
     total = attempt = stepper.attempt(state, end, None, breaking, broken)
+    carried = stepper.carried_way(state, end)
     way, steady, count = 0.0, 0, 0
     while count < CORRECTIONS or (count < PATIENCE and not steady):
-        far = not stepper.small and total.motion > too_far(stepper)
+        far = not stepper.small and total.motion > too_far(stepper, carried)
         if far or not attempt.converged:
             mechanism = far and not stepper.kinematics.finite
-            return SettledStep(replace(total, converged=False), contacts, mechanism)
+            return SettledStep(replace(total, converged=False), contacts, mechanism, carried)
         _, contacts = stepper.accept(attempt)
         if not stepper.anchored and stepper.small:
             return SettledStep(total, contacts)
@@ -89,9 +95,11 @@ def settle(
         total, count = joined(total, attempt, whole), count + 1
         if stepper.anchored and steady >= STEADY and way > COLLAPSE * stepper.size:
             sentence = f"it moved by {way:.3g} m in {count} corrections that did not shrink"
-            return SettledStep(replace(total, converged=False, sentence=sentence), contacts, True)
+            lost = replace(total, converged=False, sentence=sentence)
+            return SettledStep(lost, contacts, True, carried)
     sentence = f"the moved place is not in equilibrium after {count} corrections"
-    return SettledStep(replace(total, converged=False, sentence=sentence), contacts)
+    lost = replace(total, converged=False, sentence=sentence)
+    return SettledStep(lost, contacts, False, carried)
 
 
 def _remembering(moved: State, start: State) -> State:
