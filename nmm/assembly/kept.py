@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from nmm.assembly.state import Frames, State
 
 Given = ParamSpec("Given")
+G = TypeVar("G")
 T = TypeVar("T")
 
 
@@ -37,25 +38,33 @@ class Kept(Generic[Given, T]):
         self._known = []
 
 
-class KeptOfStates(Generic[T]):
-    """Values of the last two states, told apart by identity."""
+class KeptOfObject(Generic[G, T]):
+    """Values of the last two objects, which are never changed, told apart by identity."""
 
-    def __init__(self, make: Callable[["State"], T]) -> None:
+    def __init__(self, make: Callable[[G], T]) -> None:
         self._make = make
-        self._known: list[tuple[State, T]] = []
+        self._known: list[tuple[G, T]] = []
 
-    def of(self, state: "State") -> T:
-        """Return the value of a state, computed unless it is kept."""
+    def of(self, given: G) -> T:
+        """Return the value of an object, computed unless it is kept."""
         for known, value in self._known:
-            if known is state:
+            if known is given:
                 return value
-        value = self._make(state)
-        self._known = [(state, value), *self._known[:1]]
+        value = self._make(given)
+        self._known = [(given, value), *self._known[:1]]
         return value
 
     def forget(self) -> None:
         """Drop all values: what they are computed with has changed."""
         self._known = []
+
+
+class KeptOfStates(KeptOfObject["State", T]):
+    """Values of the last two states."""
+
+
+class KeptOfArray(KeptOfObject[Floats, T]):
+    """Values of the last two arrays."""
 
 
 class KeptOfPlaces(Generic[T]):
@@ -87,27 +96,6 @@ class KeptOfInstants(Kept[["State", float], T]):
 
     def __init__(self, make: Callable[["State", float], T]) -> None:
         super().__init__(make, lambda state, time: (*_place(state), time))
-
-
-class KeptOfArray(Generic[T]):
-    """The values of the last two arrays, which are never changed."""
-
-    def __init__(self, make: Callable[[Floats], T]) -> None:
-        self._make = make
-        self._known: list[tuple[Floats, T]] = []
-
-    def of(self, array: Floats) -> T:
-        """Return the value of an array, computed unless it is kept."""
-        for known, value in self._known:
-            if known is array:
-                return value
-        value = self._make(array)
-        self._known = [(array, value), *self._known[:1]]
-        return value
-
-    def forget(self) -> None:
-        """Drop all values: what they are computed with has changed."""
-        self._known = []
 
 
 def _place(state: "State") -> tuple[int, int]:

@@ -11,7 +11,7 @@ Nitsche's method (1971), which alone has ``Q``. Its matrix is symmetric,
     N^T s N - N^T Q - Q^T N.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -19,20 +19,10 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Floats
-from nmm.effects.loading.load_factor import course_of
+from nmm.effects.loading.load_factor import steadily
 
 Factor = Callable[[float], float]
 """From a time (s) to a factor."""
-
-
-def steadily(time: float) -> float:
-    """Return the factor of a constant condition."""
-    return 1.0
-
-
-def of_history(history: Sequence[tuple[float, float]] | None) -> Factor:
-    """Return the factor of a history of pairs of time (s) and factor; `steadily` without one."""
-    return steadily if history is None else course_of(history)
 
 
 @dataclass(frozen=True)

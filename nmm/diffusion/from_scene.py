@@ -12,7 +12,7 @@ from covers.scalar.space import ScalarSpace
 from integration.arrays import Bools, Floats
 from nmm.assembly.places import Place, on_segment
 from nmm.diffusion.determined import undetermined
-from nmm.diffusion.edges import Edge, Factor, of_history
+from nmm.diffusion.edges import Edge, Factor
 from nmm.diffusion.holding import prescribed
 from nmm.diffusion.joints import Conductance, JointParts, across_blocks, across_cracks
 from nmm.diffusion.matrices import integrals, products, slopes
@@ -23,6 +23,7 @@ from nmm.diffusion.problem import (
     field_solver,
 )
 from nmm.effects.base import Setup
+from nmm.effects.loading.load_factor import course_of
 from nmm.errors import Fault, SceneError
 
 JOINTS = "joints"
@@ -57,7 +58,7 @@ class GivenTable:
     @property
     def factor(self) -> Factor:
         """From a time (s) to a factor."""
-        return of_history(self.item.history)
+        return course_of(self.item.history)
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,9 @@ from nmm.assembly.model import Model
 from nmm.assembly.places import Place
 from nmm.assembly.tractions.donors import donors
 from nmm.assembly.tractions.element_bounds import largest_ratio
-from nmm.diffusion.edges import Edge, Factor, steadily
+from nmm.diffusion.edges import Edge, Factor
 from nmm.diffusion.matrices import slope_integrals
+from nmm.effects.loading.load_factor import steadily
 
 # Multiple of the least penalty at which the form is positive.
 SAFETY = 4.0

@@ -20,7 +20,8 @@ from covers.approximation.manifold import Manifold
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Bools, Floats
 from nmm.assembly.kept import KeptOfArray
-from nmm.diffusion.edges import Edge, Factor, steadily
+from nmm.diffusion.edges import Edge, Factor
+from nmm.effects.loading.load_factor import steadily
 from nmm.formulation import Solver
 from nmm.solvers.linear import Factor as Decomposed
 from nmm.solvers.linear import LinearSolver, make_solver

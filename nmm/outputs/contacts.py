@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from nmm.assembly.model import Model
+from nmm.assembly.kept import KeptOfObject
 from nmm.contact.problem.contact_state import ContactState
 from nmm.fracture.growth.faces import CrackFaces
 from nmm.outputs.base import Output, View
@@ -18,7 +18,7 @@ class CrackOpening(Output):
     """
 
     def __init__(self) -> None:
-        self._of: tuple[Model, CrackFaces] | None = None
+        self._faces = KeptOfObject(CrackFaces.of)
 
     def fields(self, view: View) -> Mapping[str, Quantity]:
         contacts = view.contacts
@@ -32,11 +32,5 @@ class CrackOpening(Output):
     def history(self, view: View) -> Mapping[str, float]:
         """Return the widest opening (m)."""
         broken = self.fields(view)["crack_opening"].values.max(initial=0.0)
-        faces = self._faces(view.model).widest(view.state).max(initial=0.0)
+        faces = self._faces.of(view.model).widest(view.state).max(initial=0.0)
         return {"crack_opening": float(max(broken, faces))}
-
-    def _faces(self, model: Model) -> CrackFaces:
-        """Return the faces of the cracks of a model, found once."""
-        if self._of is None or self._of[0] is not model:
-            self._of = model, CrackFaces.of(model)
-        return self._of[1]

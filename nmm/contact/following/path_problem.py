@@ -133,11 +133,8 @@ class PathProblem:
         another one as it unloads. Rounding would choose, and a structure that unloads as a whole
         takes no energy however far it goes.
         """
-        return replace(begin, contacts=replace(begin.contacts, slopes=self.further().slopes))
-
-    def further(self) -> ContactForces:
-        """Return the forces of contacts that have opened and slid a little further."""
-        return self.law((1 + LOADED_FURTHER) * self.gap, (1 + LOADED_FURTHER) * self.slip)
+        further = self.law((1 + LOADED_FURTHER) * begin.gap, (1 + LOADED_FURTHER) * begin.slip)
+        return replace(begin, contacts=replace(begin.contacts, slopes=further.slopes))
 
     def tangent(self, step: PathStep, slope: Floats | None = None) -> csc_array:
         """Return the matrix (n, n) by which forces answer a further increment.

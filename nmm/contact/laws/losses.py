@@ -101,21 +101,21 @@ class ContactLosses:
         parts = _passages(self.laws, self.start.take(soft), after)
         return [(law, way, area, law.dissipated(way)) for law, way, area in parts]
 
-    @property
+    @MadeOnce
     def _rubbed(self) -> Floats:
         """Shear force at the end times slip (m,), in J."""
         slid = self.start.slid
         way = np.abs(slid + self.sliding) - np.abs(slid)
         return np.asarray(np.abs(self.answer.shear_force) * way)
 
-    @property
+    @MadeOnce
     def _limits(self) -> tuple[Floats, Bools]:
         """Limits (m,) of shear at the start (N), and where shear forces are at them."""
         start = self.start
         bound = shear_bound(start.normal_force, start.normal_force != 0, self.responses[0].limits)
         return bound, np.asarray(np.abs(start.shear_force) >= (1 - AT_LIMIT) * bound)
 
-    @property
+    @MadeOnce
     def _mean_share(self) -> Floats:
         """Mean shear force (m,) of a step of statics over that at its end, where contacts slide."""
         end, (bound, from_start) = np.abs(self.answer.shear_force), self._limits

@@ -49,14 +49,18 @@ def displacement_factor(setup: Setup, support: "SupportTable") -> Callable[[Inst
 
 
 def course_of(history: Sequence[tuple[float, float]] | None) -> Callable[[float], float]:
-    """Return the factor over time of (time, factor) pairs, linear between, constant beyond."""
+    """Return the factor over time of (time, factor) pairs, linear between, constant beyond.
+
+    It is `steadily` without a history.
+    """
     if history is None:
-        return _steadily
+        return steadily
     times, factors = np.array(history, dtype=float).T.copy()
     return partial(_between, times, factors)
 
 
-def _steadily(time: float) -> float:
+def steadily(time: float) -> float:
+    """Return 1: the factor of what is given without a history."""
     return 1.0
 
 

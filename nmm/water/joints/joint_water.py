@@ -14,8 +14,9 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.kept import KeptOfInstants, KeptOfPlaces
 from nmm.assembly.state import State
 from nmm.constraints.ties.shared_edges import shared_edges
-from nmm.diffusion.edges import Factor, of_history, steadily
+from nmm.diffusion.edges import Factor
 from nmm.effects.base import Effect, Instant, Setup
+from nmm.effects.loading.load_factor import course_of, steadily
 from nmm.errors import Fault, SceneError, SolveError
 from nmm.quantity import Quantity
 from nmm.water.joints.network import JointNetwork
@@ -206,7 +207,7 @@ def _prescribed(setup: Setup, sites: WetJoints) -> list[PrescribedHead]:
             shown, expected = str(item.segment or item.point), "a place where a joint ends"
             raise SceneError(Fault(place, shown, expected, "move it to the end of a joint"))
         head = np.full(len(nodes), item.head - setup.origin[1])
-        found.append(PrescribedHead(item.name, nodes, head, of_history(item.history)))
+        found.append(PrescribedHead(item.name, nodes, head, course_of(item.history)))
     return found
 
 

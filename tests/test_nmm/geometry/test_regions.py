@@ -6,25 +6,12 @@ import numpy as np
 import pytest
 
 from nmm.geometry import regions
-from nmm.scene import Scene, build_scene, parse_scene
-
-ROCK = {"young_modulus": 1e9, "poisson_ratio": 0.2}
-SQUARE = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
-
-
-def _moved(x: float, y: float, size: float = 1.0) -> list[list[float]]:
-    return [[x + size * a, y + size * b] for a, b in SQUARE]
-
-
-def _scene(*outlines: Any, **tables: Any) -> Scene:
-    blocks = [{"name": f"b{k}", "material": "rock", "vertices": v} for k, v in enumerate(outlines)]
-    return build_scene(
-        {"plane": "strain", "materials": {"rock": ROCK}, "blocks": blocks, **tables}, "s.toml"
-    )
+from nmm.scene import parse_scene
+from nmm.testing.unit_squares import SQUARE, scene_of, square_at
 
 
 def test_blocks_keep_their_corners_and_come_counter_clockwise() -> None:
-    whole = regions(_scene(SQUARE[::-1], _moved(1, 0)))
+    whole = regions(scene_of(SQUARE[::-1], square_at(1, 0)))
     assert whole.polygons.areas.tolist() == [1.0, 1.0]
     assert (whole.polygons.ring_areas > 0).all()
     assert sorted(whole.polygons.points[:4].tolist()) == sorted(SQUARE)
@@ -76,17 +63,17 @@ def test_load_and_support_points_become_vertices_of_tessellated_blocks() -> None
             {"name": "p", "kind": "edge", "segment": [[0.4, 1], [0.45, 1]], "traction": [0, -1]}
         ],
     }
-    points = {tuple(p) for p in regions(_scene(**tables)).polygons.points.tolist()}
+    points = {tuple(p) for p in regions(scene_of(**tables)).polygons.points.tolist()}
     assert {(0.123, 0.0), (0.4, 1.0), (0.45, 1.0)} <= points
 
 
 def test_tessellations_without_a_seed_follow_the_scene_and_differ_from_each_other() -> None:
     two = [
         {"name": name, "material": "rock", "region": region, "blocks": 9}
-        for name, region in (("a", SQUARE), ("b", _moved(2, 0)))
+        for name, region in (("a", SQUARE), ("b", square_at(2, 0)))
     ]
     first, again, other = (
-        regions(_scene(tessellations=two, seed=seed)).polygons for seed in (1, 1, 2)
+        regions(scene_of(tessellations=two, seed=seed)).polygons for seed in (1, 1, 2)
     )
     assert first.points.tobytes() == again.points.tobytes() != other.points.tobytes()
     assert abs(np.diff(first.areas.reshape(2, 9), axis=0)).max() > 1e-3
@@ -97,7 +84,7 @@ def test_joints_that_end_inside_blocks_are_handed_on_as_cracks() -> None:
         {"name": "j", "dip": 0.0, "spacing": 0.4, "persistence": 0.5, "trace": 0.3, "seed": 1},
         {"name": "k", "dip": 1.2, "spacing": 0.4, "seed": 2},
     ]
-    whole = regions(_scene(SQUARE, joint_sets=sets))
+    whole = regions(scene_of(SQUARE, joint_sets=sets))
     assert whole.polygons.areas.sum() == pytest.approx(1.0, rel=1e-12)
     assert len(whole.cracks) > 0
     assert len(whole.cracks) == len(whole.crack_region)

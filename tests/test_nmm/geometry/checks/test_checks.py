@@ -10,20 +10,7 @@ import shapely
 from nmm.errors import GeometryError
 from nmm.geometry import regions
 from nmm.scene import Scene, build_scene
-
-ROCK = {"young_modulus": 1e9, "poisson_ratio": 0.2}
-SQUARE = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
-
-
-def _moved(x: float, y: float, size: float = 1.0) -> list[list[float]]:
-    return [[x + size * a, y + size * b] for a, b in SQUARE]
-
-
-def _scene(*outlines: Any, **tables: Any) -> Scene:
-    blocks = [{"name": f"b{k}", "material": "rock", "vertices": v} for k, v in enumerate(outlines)]
-    return build_scene(
-        {"plane": "strain", "materials": {"rock": ROCK}, "blocks": blocks, **tables}, "s.toml"
-    )
+from nmm.testing.unit_squares import ROCK, SQUARE, scene_of, square_at
 
 
 def _faults(scene: Scene) -> list[str]:
@@ -33,7 +20,7 @@ def _faults(scene: Scene) -> list[str]:
 
 
 def _line(*outlines: Any, **tables: Any) -> str:
-    (line,) = _faults(_scene(*outlines, **tables))
+    (line,) = _faults(scene_of(*outlines, **tables))
     return line
 
 
@@ -61,7 +48,7 @@ def test_an_unsound_outline_is_refused(outline: Any, parts: Sequence[str]) -> No
 
 def test_a_thin_strip_a_small_block_and_a_closed_ring_are_sound() -> None:
     strip = [[0.0, -1.0], [1.0, -1.0], [1.0, 1e-4 - 1], [0.0, 1e-4 - 1]]
-    whole = regions(_scene([*SQUARE, SQUARE[0]], _moved(3, 0, 1e-4), strip))
+    whole = regions(scene_of([*SQUARE, SQUARE[0]], square_at(3, 0, 1e-4), strip))
     assert whole.polygons.areas == pytest.approx([1.0, 1e-8, 1e-4], rel=1e-9)
 
 
@@ -70,8 +57,8 @@ def test_a_thin_strip_a_small_block_and_a_closed_ring_are_sound() -> None:
     [
         ([[[0, 0.2], [0.5, 0.2], [0.5, 0.5]]], "touches or leaves"),
         ([[[0.5, 0.2], [1.5, 0.2], [0.5, 0.5]]], "touches or leaves"),
-        ([_moved(0.2, 0.2, 0.4), _moved(0.4, 0.4, 0.4)], "meets another hole"),
-        ([_moved(0.2, 0.2, 0.5), _moved(0.3, 0.3, 0.1)], "meets another hole"),
+        ([square_at(0.2, 0.2, 0.4), square_at(0.4, 0.4, 0.4)], "meets another hole"),
+        ([square_at(0.2, 0.2, 0.5), square_at(0.3, 0.3, 0.1)], "meets another hole"),
     ],
 )
 def test_unsound_holes_are_refused(holes: Any, part: str) -> None:
@@ -95,11 +82,11 @@ def test_the_overlaps_told_are_those_of_every_pair_of_blocks() -> None:
     # areas are 0.5 m2: of what the pairs share nothing lies between rounding and 1e-3 m2
     expected = sum(shapes[a].intersection(shapes[b]).area > 1e-3 for a, b in pairs)
     assert 5 < expected < len(pairs)
-    assert len(_faults(_scene(*outlines))) == expected
+    assert len(_faults(scene_of(*outlines))) == expected
 
 
 def test_overlapping_and_nested_blocks_are_refused() -> None:
-    lines = _faults(_scene(SQUARE, _moved(0.5, 0.5), _moved(5, 5, 3.0), _moved(6, 6)))
+    lines = _faults(scene_of(SQUARE, square_at(0.5, 0.5), square_at(5, 5, 3.0), square_at(6, 6)))
     assert '"b1" overlaps "b0" by 0.25 m2' in lines[0]
     assert '"b3" lies inside "b2"' in lines[1]
     assert "blocks.3" in lines[1]
@@ -107,11 +94,11 @@ def test_overlapping_and_nested_blocks_are_refused() -> None:
 
 @pytest.mark.parametrize("gap", [0.0, 1e-12, -1e-12, 1e-16, -1e-8])
 def test_blocks_that_touch_up_to_rounding_pass(gap: float) -> None:
-    assert len(regions(_scene(SQUARE, _moved(1 + gap, 0), _moved(0, 1 + gap)))) == 3
+    assert len(regions(scene_of(SQUARE, square_at(1 + gap, 0), square_at(0, 1 + gap)))) == 3
 
 
 def test_a_block_in_a_hole_of_its_size_passes() -> None:
-    ring = {"material": "rock", "vertices": _moved(-1, -1, 3.0), "holes": [SQUARE]}
+    ring = {"material": "rock", "vertices": square_at(-1, -1, 3.0), "holes": [SQUARE]}
     assert len(regions(_with_blocks(ring, {"material": "rock", "vertices": SQUARE}))) == 2
 
 
@@ -148,33 +135,33 @@ def test_a_place_that_touches_nothing_is_refused(tables: Any, parts: Sequence[st
 
 def test_a_load_on_a_joint_must_say_which_block_it_loads() -> None:
     load = _edge_load([[0, 1], [1, 1]])
-    assert "both sides" in _line(SQUARE, _moved(0, 1), **load)
+    assert "both sides" in _line(SQUARE, square_at(0, 1), **load)
     narrowed = _edge_load([[0, 1], [1, 1]], block="b0")
-    assert len(regions(_scene(SQUARE, _moved(0, 1), **narrowed))) == 2
+    assert len(regions(scene_of(SQUARE, square_at(0, 1), **narrowed))) == 2
 
 
 def test_all_geometric_faults_are_reported_at_once() -> None:
-    lines = _faults(_scene(SQUARE, SQUARE, **_support(point=[9, 9])))
+    lines = _faults(scene_of(SQUARE, SQUARE, **_support(point=[9, 9])))
     assert len(lines) == 2
-    assert len(_faults(_scene(BOW, TOUCHING))) == 2
+    assert len(_faults(scene_of(BOW, TOUCHING))) == 2
 
 
 def test_a_far_scene_is_read_like_a_near_one() -> None:
     far = [[x + 1e6, y - 1e6] for x, y in SQUARE]
     beside = [[x + 1e6 + 1, y - 1e6] for x, y in SQUARE]
-    scene = _scene(far, beside, **_support(point=[1e6 + 0.3, -1e6]))
+    scene = scene_of(far, beside, **_support(point=[1e6 + 0.3, -1e6]))
     assert regions(scene).polygons.areas.tolist() == [1.0, 1.0]
 
 
 def test_a_wall_of_two_thousand_blocks_passes() -> None:
-    wall = [_moved(x, y) for x in range(50) for y in range(40)]
-    assert len(regions(_scene(*wall))) == 2000
+    wall = [square_at(x, y) for x in range(50) for y in range(40)]
+    assert len(regions(scene_of(*wall))) == 2000
 
 
 @pytest.mark.parametrize("tiny", [1e-320, -5e-324])
 def test_a_coordinate_that_has_lost_its_digits_is_refused(tiny):
     # GEOS divides by it: points on surfaces overflow. Smaller than any length it is meant as zero.
-    faults = _faults(_scene([[tiny, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]))
+    faults = _faults(scene_of([[tiny, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]))
     assert len(faults) == 1
     assert "b0" in faults[0] or "blocks.0" in faults[0]
     assert "expected zero" in faults[0]
