@@ -165,9 +165,11 @@ def _bound(place: Path, formulation: Path | None) -> None:
             "with limits of their own"
         )
     elif found.factor is None:
-        text = "no equilibrium: contacts and bonds do not carry the loads that are not scaled"
+        text = (
+            "no equilibrium: contacts, bonds and members do not carry the loads that are not scaled"
+        )
     elif not found.motion.any():
-        text = "no bound: contacts and bonds carry any load factor"
+        text = "no bound: contacts, bonds and members carry any load factor"
     else:
         load = made.stepper.plan.scaled_load(found.factor)
         newton = "" if load is None else f", {load:.6g} N"

@@ -73,6 +73,21 @@ class Uniaxial:
             force - self.stiffness * more, np.where(over, softer, tangent), plastic + more, after
         )
 
+    def limits(self, flowed: Floats) -> tuple[Floats, Floats]:
+        """Return the least and the largest force (m,) from now on, ``flowed`` (m,) so far."""
+        most = np.full_like(flowed, np.inf if self.stiffness else 0.0)
+        if not self.elastic:
+            ways, values = self._curve
+            ahead = np.where(ways > flowed[:, None], values, 0.0).max(axis=1)
+            most = np.maximum(np.interp(flowed, ways, values), ahead)
+        none = np.zeros_like(most)
+        return -most if self.pushes else none, most if self.pulls else none
+
+    def slack(self, trial: Floats) -> Floats:
+        """Return the way (m,) to what carries from trial forces (m,); 0 where it does."""
+        idle = ((trial > 0) & (not self.pulls)) | ((trial < 0) & (not self.pushes))
+        return np.asarray(np.abs(trial) / self.stiffness * idle if self.stiffness else 0.0 * trial)
+
     def energy(self, force: Floats) -> Floats:
         """Stored at forces (m,), in force times way."""
         return np.asarray(force**2 / (2 * self.stiffness) if self.stiffness else 0.0 * force)

@@ -3,6 +3,7 @@
 from integration.arrays import Floats
 from integration.sparse import csc_array, csr_array
 from nmm.assembly.state import State
+from nmm.effects.given.resistance import Resistance
 from nmm.effects.given.steps import Instant, Span, StepForce
 
 
@@ -56,6 +57,13 @@ class ForceHooks:
     def limited(self) -> bool:
         """Whether its force has a limit, as of yielding, which `matrix` does not show."""
         return False
+
+    def resistance(self, state: State) -> Resistance:
+        """Return the forces that it can exert near ``state``, whatever moves, in limit analysis.
+
+        They take the place of `force` and `matrix` there; without it what `matrix` resists is held.
+        """
+        raise NotImplementedError
 
     @property
     def symmetric(self) -> bool:

@@ -76,7 +76,7 @@ class Fibres:
 
     def answer(self, way: Floats, memory: Floats) -> FibreAnswer:
         """Return forces and tangents at elongations (m,) (m); ``memory`` (m, 2) is that before."""
-        trial = self.start + self._modulus * (way / self.length - memory[:, 0])
+        trial = self._trial(way, memory)
         if self.linear:
             return FibreAnswer(self.area * trial, self.stiffness, memory)
         force, tangent, after = np.empty_like(way), np.empty_like(way), np.empty_like(memory)
@@ -86,6 +86,25 @@ class Fibres:
             force[at], tangent[at] = found.force, found.tangent
             after[at, 0], after[at, 1] = found.plastic, found.flowed
         return FibreAnswer(self.area * force, self.area / self.length * tangent, after)
+
+    def limits(self, memory: Floats) -> tuple[Floats, Floats]:
+        """Return the least and the largest forces (m,) (N) from now on."""
+        low, high = np.empty(len(self)), np.empty(len(self))
+        for number, law in enumerate(self.laws):  # a handful of laws
+            at = np.flatnonzero(self.law == number)
+            low[at], high[at] = law.limits(memory[at, 1])
+        return self.area * low, self.area * high
+
+    def slack(self, way: Floats, memory: Floats) -> Floats:
+        """Elongations (m,) (m) from ``way`` to where something is carried; 0 where it is."""
+        strain, trial = np.empty_like(way), self._trial(way, memory)
+        for number, law in enumerate(self.laws):  # a handful of laws
+            at = np.flatnonzero(self.law == number)
+            strain[at] = law.slack(trial[at])
+        return self.length * strain
+
+    def _trial(self, way: Floats, memory: Floats) -> Floats:
+        return np.asarray(self.start + self._modulus * (way / self.length - memory[:, 0]))
 
     def energy(self, force: Floats) -> float:
         """Energy (J) stored at forces (m,) (N)."""

@@ -4,13 +4,14 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.kept import KeptOfPlaces, KeptOfStates
 from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
+from nmm.effects.given.resistance import Resistance
 from nmm.effects.members.chains import ChainAnswer
 from nmm.effects.members.kept_matrix import LIKE, KeptMatrix
 from nmm.effects.members.member_set import AXIAL, BOND, SLIP, WIDTH, Members
@@ -111,6 +112,23 @@ class Linked(Effect):
             return links.stiffness(before, lines, tangent, force)
 
         return StepForce(pull, stiffness, self._remembered(before, end))
+
+    def resistance(self, state: State) -> Resistance:
+        """See `Effect.resistance`: axial forces, and the bond that brings them in."""
+        members, found = self.members, self._answers.of(state)
+        links, chains = members.links, members.chains
+        lines, memory = links.lines(state), found.axial.memory
+        way = links.stretch(state) - self._offset + chains.opening @ found.slip
+        across = links.rows(state, lines.normal * (lines.across > 0)[:, None])
+        return Resistance(
+            links.rows(state, lines.along),
+            across,
+            *chains.axial.limits(memory),
+            found.axial.force,
+            chains.axial.slack(way, memory),
+            csr_array(chains.opening.T),
+            chains.bond.limits(found.bond.memory)[1],
+        )
 
     def energy(self, state: State) -> float:
         chains, found = self.members.chains, self._answers.of(state)

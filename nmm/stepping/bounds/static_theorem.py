@@ -1,20 +1,23 @@
 """The static theorem as a linear programme: whether any contact forces carry the loads at all.
 
-Each body must be in balance under its loads, what its supports can give, and contact forces within
-friction and strength. Where no such forces exist there is no equilibrium near this place, whatever
-bodies and contacts are made of and however they slide; where they exist nothing is shown, since
-friction may not choose them (Drucker 1954: with friction the static theorem bounds from above).
+Each body must be in balance under its loads, what its supports can give, contact forces within
+friction and strength, and forces of members within what they can carry. Where no such forces exist
+there is no equilibrium near this place, whatever bodies and contacts are made of and however they
+slide; where they exist nothing is shown, since friction may not choose them (Drucker 1954: with
+friction the static theorem bounds from above).
 """
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array, diags_array, hstack, vstack
+from scipy.sparse import block_diag, csc_array, csr_array, diags_array, hstack, vstack
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.state import State
 from nmm.effects.base import Instant
+from nmm.model.planning.plan import Plan
+from nmm.stepping.bounds.member_forces import MemberForces
 
 if TYPE_CHECKING:
     from nmm.contact.problem.step_problem import Limits
@@ -42,11 +45,14 @@ class CarriedLoad:
     ----------
     broken
         Whether bonds that broke before count as broken.
+    members
+        Whether members carry, too.
     """
 
     factor: float | None
     asked: float
     broken: bool = False
+    members: bool = False
 
     @property
     def fails(self) -> bool:
@@ -57,6 +63,7 @@ class CarriedLoad:
     def sentence(self) -> str:
         """Say what is proven."""
         forces = "contact forces within friction and strength"
+        forces += self.members * " and forces of members within theirs"
         by = "static theorem" + self.broken * ", bonds that broke before counted as broken"
         if self.factor is None:
             return f"no {forces} carry the loads ({by})"
@@ -87,41 +94,54 @@ def carried(
 
     Strengths of contacts are those of the stepper over ``weaker``.
     """
-    found = _largest_share(stepper, state, asked, 1.0, weaker)
+    reach = MAY_CARRY * stepper.size
+    found = _largest_share(stepper, state, asked, 1.0, weaker, reach)
     if found is None:
         return None
     factor = None if found.factor is None else asked * found.factor
-    return CarriedLoad(factor, asked, stepper.broken_bonds > 0)
+    members = bool(stepper.plan.having("resistance"))
+    return CarriedLoad(factor, asked, stepper.broken_bonds > 0, members)
 
 
 def load_bound(stepper: "Stepper", state: State) -> LoadBound | None:
     """Return the bound of the failure load near ``state``; None without contact or scaled loads.
 
     The multipliers of the equations of balance are the velocities of the mechanism in which the
-    bodies fail under that load (Charnes, Lemke and Zienkiewicz 1959).
+    bodies fail under that load (Charnes, Lemke and Zienkiewicz 1959). Members act along their lines
+    in ``state``: what they carry as they turn is not known.
     """
     return _largest_share(stepper, state, 1.0, most=np.inf)
 
 
 def _largest_share(
-    stepper: "Stepper", state: State, asked: float, most: float, weaker: float = 1.0
+    stepper: "Stepper",
+    state: State,
+    asked: float,
+    most: float,
+    weaker: float = 1.0,
+    reach: float | None = None,
 ) -> LoadBound | None:
     """Return the largest share, up to ``most``, of the loads at ``asked`` that is carried.
 
-    It is not known where members have limits of their own, which no condition here says.
+    Members turn as `MemberForces.of` says by ``reach``. It is not known where effects have limits
+    of their own, which no condition here says.
     """
-    plan, contact = stepper.plan, stepper.plan.contact
+    contact, members = stepper.plan.contact, stepper.plan.having("resistance")
+    plan = Plan({name: e for name, e in stepper.plan.effects.items() if e not in members})
     if contact is None or any(effect.limited for effect in plan.effects.values()):
         return None
     (normal, tangent), limits = contact.near(state, MAY_CARRY * stepper.size)
-    balance = _directions(stepper, state)
+    balance = _directions(stepper, plan, state)
+    resisting = (one.resistance(state) for one in members)
+    pulled = MemberForces.of(resisting, balance.shape[1], reach)
     fixed, whole = (plan.force(state, Instant(at, at)) for at in (0.0, asked))
     fixed, gain = balance @ fixed, balance @ (whole - fixed)
     size = max(float(np.abs(fixed).max(initial=0.0)), float(np.abs(gain).max(initial=0.0)))
     if not balance.shape[0] or size == 0:
         return None
-    columns = balance @ normal.T, balance @ tangent.T, csr_array(gain[:, None] / size)
-    found = _programme(columns, -fixed / size, limits, weaker, size, most)
+    forces = normal.T, tangent.T, pulled.acting
+    columns = (*(balance @ one for one in forces), csr_array(gain[:, None] / size))
+    found = _programme(columns, -fixed / size, limits, weaker, size, most, pulled)
     still = np.zeros(balance.shape[1])
     if found.status == INFEASIBLE:
         return LoadBound(None, still)
@@ -134,50 +154,54 @@ def _largest_share(
 
 
 def _programme(
-    balance: tuple[csr_array, csr_array, csr_array],
+    balance: tuple[csr_array, ...],
     sides: Floats,
     limits: "Limits",
     weaker: float,
     size: float,
     most: float,
+    members: MemberForces,
 ) -> Any:
     """Maximise the share under balance and the limits of contacts, forces over ``size`` (N).
 
-    ``balance`` has the columns of pressures ``p``, of shear forces ``t`` and of the share. Asked
-    for is how far shear is above its lower limit, ``s = t + mu p + c >= 0``, so that the upper one,
-    ``s - 2 mu p <= 2 c``, is the only condition that is no bound.
+    ``balance`` has the columns of pressures ``p``, of shear forces ``t``, of forces of ``members``
+    and of the share. Asked for is how far shear is above its lower limit,
+    ``s = t + mu p + c >= 0``, so that the upper one, ``s - 2 mu p <= 2 c``, is the only one
+    of contacts that is no bound.
     """
     # The one place that asks for it; its many signatures know no sparse conditions.
     from scipy import optimize
 
     linprog: Any = optimize.linprog
-    pressed, sheared, gain = balance
+    pressed, sheared, pulled, gain = balance
     m, tension = len(limits.friction), limits.tension / weaker
     ends = np.isfinite(limits.cohesion)  # elsewhere shear is free, and asked for itself
     friction = np.where(ends, limits.friction / weaker, 0.0)
     cohesion = np.where(ends, limits.cohesion / weaker / size, 0.0)
-    lowest = np.concatenate([-tension / size, np.where(ends, 0.0, -np.inf), [0.0]])
-    highest = np.append(np.full(2 * m, np.inf), most)
+    shear = np.where(ends, 0.0, -np.inf)
+    lowest = np.concatenate([-tension / size, shear, members.lowest / size, [0.0]])
+    highest = np.concatenate([np.full(2 * m, np.inf), members.highest / size, [most]])
     slope, one = diags_array(friction), diags_array(np.ones(m))
+    rubbing = csr_array(hstack([-2 * slope, one]))
     return linprog(
-        np.append(np.zeros(2 * m), -1.0),
-        A_ub=csr_array(hstack([-2 * slope, one, csc_array((m, 1))])),
-        b_ub=np.where(ends, 2 * cohesion, np.inf),
-        A_eq=csr_array(hstack([pressed - sheared @ slope, sheared, gain])),
+        np.append(np.zeros(len(lowest) - 1), -1.0),
+        A_ub=csr_array(block_diag([rubbing, members.limiting, csr_array((0, 1))])),
+        b_ub=np.concatenate([np.where(ends, 2 * cohesion, np.inf), members.limits / size]),
+        A_eq=csr_array(hstack([pressed - sheared @ slope, sheared, pulled, gain])),
         b_eq=sides + sheared @ cohesion,
         bounds=np.stack([lowest, highest], axis=1),
         method="highs-ipm",  # a fifth of the simplex method's seconds on 455 bonded blocks
     )
 
 
-def _directions(stepper: "Stepper", state: State) -> csr_array:
+def _directions(stepper: "Stepper", plan: Plan, state: State) -> csr_array:
     """Rows (k, n) of the rigid motions of bodies that no support, seam or glue resists.
 
     A body that is held in part keeps its other motions. Rotations are of one mean size of a body.
     """
     from scipy.sparse.csgraph import connected_components
 
-    manifold, plan = stepper.model.manifold, stepper.plan
+    manifold = stepper.model.manifold
     n = manifold.n_unknowns
     size = np.repeat(np.sqrt(manifold.body_area), 3)
     size[np.arange(len(size)) % 3 != 2] = 1.0

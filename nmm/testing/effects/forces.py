@@ -71,12 +71,28 @@ def check_forces(
             _work(effect, name, model, _at_rest(state), way)
     if defines(effect, "matrix"):
         _matrix(effect, name, model, state, ways)
+    if defines(effect, "resistance"):
+        _within_limits(effect, name, state)
     if defines(effect, "step_force") and effect.nonlinear:
         for span in SPANS + HALF_WAY:
             _tangent(effect, name, model, state, span, kinematics, seed)
     for hook in ("damping", "added_mass"):
         if defines(effect, hook):
             _resistance(name, hook, getattr(effect, hook)(state), ways)
+
+
+def _within_limits(effect: Effect, name: str, state: State) -> None:
+    """Compare its force with what it may exert in limit analysis."""
+    found, force = effect.resistance(state), effect.force(state, Instant.of(state))
+    unit = float(np.abs(force).max()) or 1.0
+    close(f"{name}: force of its links", -found.along.T @ found.force / unit, force / unit, LINEAR)
+    over = np.maximum(found.lowest - found.force, found.force - found.highest)
+    most = float(np.abs(found.force).max(initial=0.0))
+    claim(
+        bool((over <= LINEAR * most).all()), f"{name}: forces beyond the limits of its resistance"
+    )
+    slides = np.abs(found.bond @ found.force) - found.strength
+    claim(bool((slides <= LINEAR * most).all()), f"{name}: bond beyond the strength it tells")
 
 
 def _ways(model: Model, seed: int) -> list[Floats]:

@@ -45,6 +45,25 @@ def test_a_cable_goes_slack_and_takes_up_where_it_yielded():
     assert force == pytest.approx([5.0, 0.0, 0.0, 2.0])
 
 
+@pytest.mark.parametrize(
+    ("name", "flowed", "limits"),
+    [
+        ("hardening", 5.0, (-25.0, 25.0)),
+        ("softening", 0.6, (-2.0, 2.0)),  # 5 (1 - 0.6)
+        ("cable", 0.0, (0.0, 5.0)),
+        ("model code", 2e-3, (-8e6, 8e6)),  # on its plateau
+    ],
+)
+def test_limits_are_those_that_are_still_ahead(name, flowed, limits):
+    found = LAWS[name].limits(np.array([flowed]))
+    assert [float(one[0]) for one in found] == pytest.approx(limits)
+
+
+def test_a_cable_pushed_together_is_slack_by_that_way():
+    cable = LAWS["cable"]
+    assert cable.slack(cable.stiffness * np.array([-0.3, 0.0, 0.2])) == pytest.approx([0.3, 0, 0])
+
+
 @pytest.mark.parametrize("name", LAWS)
 def test_tangents_are_the_derivatives_of_forces(name):
     law = LAWS[name]

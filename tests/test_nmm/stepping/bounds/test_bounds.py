@@ -1,10 +1,12 @@
 """What the static theorem may say of blocks that members hold."""
 
+import numpy as np
 import pytest
 
 import nmm
 from nmm.formulation import Formulation
-from nmm.stepping.bounds.static_theorem import load_bound
+from nmm.stepping.bounds.member_forces import TURN
+from nmm.stepping.bounds.static_theorem import carried, load_bound
 from nmm.stepping.prepare import prepare
 
 SLIDING = """
@@ -47,14 +49,171 @@ stiffness = "10 MN/m"
 """
 
 
-@pytest.mark.parametrize("member", ["", TIE, TIE + 'yield_force = "1 kN"\n'])
-def test_a_bound_is_told_where_friction_alone_holds(member):
-    made = prepare(nmm.parse_scene(SLIDING + member), Formulation())
-    found = load_bound(made.stepper, made.start)
-    if "yield_force" in member:  # 1 kN more than friction, which the programme does not know
-        assert found is None
-    elif not member:
-        friction = 2 * 1000 * 9.81 * 0.5773502691896257
-        assert found.factor == pytest.approx(friction / 1e3, rel=1e-6)
-    else:
-        assert found is None or not found.motion.any()
+OTHER = """
+[[blocks]]
+name = "other"
+material = "rock"
+vertices = [[-2.5, 0], [-0.5, 0], [-0.5, 1], [-2.5, 1]]
+[[springs]]
+name = "cable"
+points = [[0, 0.5], [-0.5, 0.5]]
+blocks = ["block", "other"]
+stiffness = "10 MN/m"
+"""
+BOLT = """
+[[bars]]
+name = "bolt"
+points = [[0.4, 0.5], [-1.6, 0.5]]
+blocks = ["block", "ground"]
+area = "100 mm^2"
+perimeter = "0.1 m"
+young_modulus = "200 GPa"
+ends = ["free", "ground"]
+%s
+[bars.bond]
+law = "plastic"
+stiffness = "1 GPa/m"
+strength = "%s kPa"
+"""
+FRICTION = 2 * 1000 * 9.81 * np.tan(np.pi / 6)
+
+
+def bound(members, backwards=False):
+    push = "force = [%s, 0]"
+    pushed = SLIDING.replace(push % '"1 kN"', push % ('"-1 kN"' if backwards else '"1 kN"'))
+    made = prepare(nmm.parse_scene(pushed + members), Formulation())
+    return load_bound(made.stepper, made.start)
+
+
+@pytest.mark.parametrize(
+    ("member", "most"),
+    [
+        ("", FRICTION),
+        (TIE + 'yield_force = "1 kN"\n', FRICTION + 1e3),
+        (TIE + 'carries = "compression"\n', FRICTION),
+        (TIE + 'carries = "tension"\nyield_force = "3 kN"\n', FRICTION + 3e3),
+        # A cable drags the other block along, a strut does not.
+        (OTHER + 'carries = "tension"\n', 2 * FRICTION),
+        (OTHER + 'carries = "compression"\n', FRICTION),
+        # 0.4 m of bond in the block at 0.1 m2 a metre; beyond that the bolt yields at 10 kN.
+        (BOLT % ("", 50), FRICTION + 2e3),
+        (BOLT % ('yield_stress = "100 MPa"', 500), FRICTION + 1e4),
+    ],
+)
+def test_members_carry_their_limit_beside_friction(member, most):
+    assert bound(member).factor == pytest.approx(most / 1e3, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("member", "most"),
+    [('carries = "tension"\n', FRICTION), ('carries = "compression"\n', 2 * FRICTION)],
+)
+def test_a_cable_pushes_no_block_and_a_strut_does(member, most):
+    assert bound(OTHER + member, backwards=True).factor == pytest.approx(most / 1e3, rel=1e-6)
+
+
+@pytest.mark.parametrize("member", [TIE, TIE + 'carries = "tension"\n'])
+def test_no_bound_is_told_where_a_member_without_limit_pulls_against_the_load(member):
+    found = bound(member)
+    assert np.isinf(found.factor)
+    assert not found.motion.any()
+
+
+HANGING = """
+[[blocks]]
+name = "hanging"
+material = "rock"
+vertices = [[0, -4], [1, -4], [1, -3], [0, -3]]
+[[springs]]
+name = "cable"
+points = [[0.5, -3], [0.5, -1]]
+blocks = ["hanging", "ground"]
+stiffness = "10 MN/m"
+%s
+[[loads]]
+name = "aside"
+kind = "point"
+point = [0.5, -3]
+block = "hanging"
+force = [%s, 0]
+"""
+
+
+@pytest.mark.parametrize(
+    ("member", "share", "fails"),
+    [
+        ('carries = "tension"', 0.9 * TURN, False),
+        ('carries = "tension"', 1.1 * TURN, True),
+        # Slack by 10 mm: where it will hang is not known.
+        ('carries = "tension"\nforce = "-100 kN"', 1.1 * TURN, False),
+        ('carries = "compression"', 0.0, True),
+    ],
+)
+def test_what_hangs_on_a_cable_may_swing_a_little_before_its_fall_is_proven(member, share, fails):
+    scene = SLIDING.replace('["1 kN", 0]', "[0, 0]") + HANGING % (member, share * 1000 * 9.81)
+    made = prepare(nmm.parse_scene(scene), Formulation())
+    assert carried(made.stepper, made.start, 1.0).fails == fails
+
+
+SLOPE = """
+plane = "strain"
+[gravity]
+acceleration = [%s, %s]
+[contact]
+[interfaces.rough]
+between = ["upper", "ground"]
+friction_angle = "45 deg"
+[interfaces.smooth]
+between = ["lower", "ground"]
+friction_angle = "%s deg"
+[[supports]]
+name = "ground"
+block = "ground"
+fix = ["x", "y"]
+[[springs]]
+name = "cable"
+points = [[-1.2, 0.5], [1.2, 0.5]]
+blocks = ["lower", "upper"]
+stiffness = "10 MN/m"
+carries = "tension"
+%s
+"""
+"""Two blocks of one weight on a floor that is turned, tied by a cable along it."""
+
+
+def on_a_slope(angle, smooth, member=""):
+    turned = np.radians(angle)
+    head = SLOPE % (-9.81 * np.sin(turned), -9.81 * np.cos(turned), smooth, member)
+    outlines = {
+        "ground": [[-8, -1], [8, -1], [8, 0], [-8, 0]],
+        "lower": [[-2, 0], [-1, 0], [-1, 1], [-2, 1]],
+        "upper": [[1, 0], [2, 0], [2, 1], [1, 1]],
+    }
+    return head + "".join(
+        f'[materials.{name}]\nyoung_modulus = "10 GPa"\npoisson_ratio = 0.2\ndensity = 2600\n'
+        f'[[blocks]]\nname = "{name}"\nmaterial = "{name}"\nvertices = {outline}\n'
+        for name, outline in outlines.items()
+    )
+
+
+# Both slide where tan(slope) exceeds the mean of both coefficients of friction, 1 of the upper one.
+@pytest.mark.parametrize("smooth", [20, 30])
+def test_two_blocks_on_a_cable_hold_each_other_by_the_mean_of_their_friction(smooth):
+    mean = np.degrees(np.arctan((1 + np.tan(np.radians(smooth))) / 2))
+    for angle, factor in ((mean - 0.01, np.inf), (mean + 0.01, None)):
+        made = prepare(nmm.parse_scene(on_a_slope(angle, smooth)), Formulation())
+        found = load_bound(made.stepper, made.start)
+        assert found.factor == factor, (angle, found)
+
+
+@pytest.mark.parametrize(
+    "member",
+    [
+        pytest.param("", id="taut"),
+        pytest.param('force = "-100 kN"', id="slack", marks=pytest.mark.slow),
+    ],
+)
+def test_two_blocks_that_slide_on_a_cable_have_collapsed(member):
+    found = nmm.run(nmm.parse_scene(on_a_slope(40, 30, member))).summary
+    assert found.status == "collapsed", found.sentence
+    assert "members" in found.sentence
