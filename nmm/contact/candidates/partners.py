@@ -9,7 +9,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.contact.candidates.pairs import GLUED, MISSING, Pairs, no_interface
 from nmm.contact.detection.contacts import Contacts
-from nmm.contact.detection.crossing import Motion, crossings_in, motion_of
+from nmm.contact.detection.crossing import Motion, crossings_in, motion_of, over_seams
 from nmm.contact.detection.kinks import in_kinks, standing
 from nmm.contact.detection.narrow_phase import find_contacts, with_pairs
 from nmm.contact.detection.neighbour_list import NeighbourList
@@ -186,11 +186,17 @@ class Partners:
             vertex, edge = vertex[meets], edge[meets]
         return motion_of(start, self.surface(after), (vertex, edge), FLUSH)
 
-    def passage(self, motion: Motion) -> str:
-        """Say where a body went through another in a step; empty if none did."""
+    def passage(self, motion: Motion, contacts: ContactPoints) -> str:
+        """Say where a body went through another in a step; empty if none did.
+
+        None did that slid over a seam on floors that are ``contacts`` of the step.
+        """
         if motion.harmless or not len(found := crossings_in(motion, DEPTH)):
             return ""
-        start = motion.before
+        through = ~over_seams(found, motion, (contacts.edge_a, contacts.edge_b))
+        if not some(through):
+            return ""
+        found, start = found.take(through), motion.before
         first = np.array([int(found.fraction.argmin())])
         x, y = start.start[found.vertex[first]][0] + self._origin
         if self.interfaces(found.vertex[first], found.edge[first])[0] == MISSING:

@@ -33,6 +33,10 @@ class Crossings:
     def __len__(self) -> int:
         return len(self.vertex)
 
+    def take(self, chosen: Bools) -> Crossings:
+        """Return some of them (m,)."""
+        return Crossings(self.vertex[chosen], self.edge[chosen], self.fraction[chosen])
+
     @property
     def free_fraction(self) -> float:
         """Largest fraction of the step that holds no crossing; 1 for a step without any."""

@@ -105,7 +105,7 @@ class ContactStepSolver:
         self.search.keep(state, sought)
         if good and solved.rows is not None:
             result = self._completed(equations, solved, result, rest, near is not None)
-        passage = "" if motion is None else partners.passage(motion)
+        passage = "" if motion is None else partners.passage(motion, sought.contacts)
         sentence = passage or self._why(verdict.sentence, result, solved)
         return equations, result.told(good and not passage, sentence, solved, passes)
 

@@ -25,12 +25,14 @@ COVERS = {
 
 
 @cache
-def dragged(cover: str, enforcement: str, increment: float, way: float) -> nmm.Run:
+def dragged(
+    cover: str, enforcement: str, increment: float, way: float, density: float = 1e3
+) -> nmm.Run:
     """A block of 1 m2 on a held ground, dragged along by a support of all of it."""
     scene = text.scene(
         'plane = "stress"\n[gravity]\n[contact]\n',
         [
-            text.material("rock", modulus=1e10, density=1e3),
+            text.material("rock", modulus=1e10, density=density),
             text.interface("joint", ANGLE),
             text.block("ground", "rock", text.rectangle((-1.3, -1), (2.4, 0))),
             text.block("dragged", "rock", text.rectangle((0, 0), (1, 1))),
@@ -82,6 +84,30 @@ def test_friction_takes_its_force_times_the_way(
     # triangles are divided as the block moves, and know where a step begins their limits to 1e-3.
     work, share = (1 - increment / 2) * FRICTION * WAY, 1e-3 if cover == "triangles" else 1e-5
     assert run.history["friction_loss"][-1] == pytest.approx(work, rel=share)
+
+
+# The corner of the block is a vertex of the mesh below it, which it leaves behind at once: by 0.1 m
+# and more in the first increment, twice as deep as half a metre of the block lets corners in.
+OVER_VERTICES = [
+    ("quads", 0.25, WAY, 1e3),
+    ("quads", 0.5, -WAY, 1.0),
+    ("quads of degree 2", 0.5, WAY, 1e3),
+    ("triangles of degree 2", 0.2, WAY, 1e3),
+]
+
+
+@pytest.mark.parametrize(("cover", "increment", "way", "density"), OVER_VERTICES)
+def test_a_block_dragged_far_in_one_increment_is_not_loose(
+    cover: str, increment: float, way: float, density: float
+) -> None:
+    run = dragged(cover, "penalty", increment, way, density)
+    assert "brought to rest" not in run.summary.sentence
+    assert len(run.history["time"]) == round(1 / increment)  # none was cut
+    work = (1 - increment / 2) * FRICTION * density / 1e3 * WAY
+    # 1e-3 J is stored in a block of 1 t/m3, 1e-6 of it, and less in a lighter one.
+    for name in ("friction_loss", "external_work"):
+        assert run.history[name][-1] == pytest.approx(work, rel=1e-5), name
+    assert abs(run.summary.energy_balance) < 1e-6
 
 
 def test_a_point_without_force_has_slid_as_far_as_its_sides_have_moved() -> None:
