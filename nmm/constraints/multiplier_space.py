@@ -17,6 +17,7 @@ from integration.monomials import evaluate, exponents
 from integration.plane_vectors import counterclockwise
 from nmm.assembly.model import Model
 from nmm.constraints.interface import Interface
+from nmm.contact.detection.surface import unordered_key
 
 # Length of a group in cells; kink (rad) at which a line ends; a function that the others resemble
 # to this share is left out: what is left of it alternates from piece to piece.
@@ -73,7 +74,7 @@ def pieces_of(model: Model, interface: Interface) -> FacePieces:
     if interface.second is not None:
         other = manifold.element_body[interface.second.elements[at]]
         along = np.where((line > other)[:, None], -along, along)
-        line = np.minimum(line, other) * manifold.n_bodies + np.maximum(line, other)
+        line = unordered_key(line, other, manifold.n_bodies)
     return FacePieces(middle - along, middle + along, line, piece, x, place.normal, interface.area)
 
 

@@ -152,7 +152,7 @@ class ModelContact:
         size = float(np.hypot(*np.ptp(self.model.manifold.elements.points, axis=0)))
         found, points = self._candidates.sought(self.record, state, FIRST_REACH * size)
         points = points.take(~points.is_joint)
-        if points.gap.size:
+        if len(points):
             given = self.model, self.laws, stress, self.exact
             points = found_under_stress(points, self.partners.surface(state), *given)
             self.record = replace(self.record, found=found, known=points)

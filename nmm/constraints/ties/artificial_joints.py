@@ -18,7 +18,7 @@ from nmm.constraints.laid_springs import laid_under_stress
 from nmm.constraints.nitsche.linear_matter import check_linear
 from nmm.constraints.springs import Springs
 from nmm.constraints.ties.followed_ties import followed
-from nmm.constraints.ties.shared_edges import gauss_interface, joint_interface, shared_edges
+from nmm.constraints.ties.shared_edges import corner_interface, gauss_interface, shared_edges
 from nmm.constraints.ties.tied_interfaces import TiedInterfaces
 from nmm.constraints.turned_axes import turning
 from nmm.effects.base import Setup
@@ -90,7 +90,7 @@ class ArtificialJoints(TiedInterfaces):
         if degree > 1 or joint_rule == "gauss":
             interface = gauss_interface(model, joints, 2 * max(degree, 1))
         else:
-            interface = joint_interface(model, joints, "corners", start)
+            interface = corner_interface(model, joints, start)
         return [Springs(interface, _spring(model, interface, glue.stiffness))]
 
 

@@ -32,10 +32,10 @@ def gauss_interface(model: Model, joints: Joints, order: int = EDGE_ORDER) -> In
     return _interface(model, joints, joint, points.reshape(-1, 2), weight.ravel())
 
 
-def joint_interface(model: Model, joints: Joints, joint_rule: str, start: State) -> Interface:
-    """Interface of two points for each joint, at its corners or its Gauss points."""
+def corner_interface(model: Model, joints: Joints, start: State) -> Interface:
+    """Interface of the two corners of each joint."""
     surface = sides(model.manifold).surface(start.frames, start.deformation)
-    found = joint_points(surface, joints, joint_rule)
+    found = joint_points(surface, joints)
     return _interface(model, joints, found.joint, found.position, found.length)
 
 

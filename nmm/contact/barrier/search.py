@@ -67,7 +67,7 @@ class Search:
         """Unknowns (n,) by way of the interior point."""
         options, within = self.tools.options.barrier, self.tools.options.interior.within
         size = options.goal * self.well.scale * self.well.width**2
-        trial = np.stack(rough.springs.forces(rough.increment))
+        trial = rough.springs.forces(rough.increment)
         point = path.centred(
             path.sides.start(rough.increment, trial, within), size, min(options.path, passes)
         )

@@ -4,6 +4,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from integration.plane_vectors import cross, dot
+from integration.ragged import within
 from nmm.contact.detection.measures import SINE
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import ANGLE, FLUSH
@@ -65,8 +66,7 @@ def _bounding(surface: Surface, vertex: Ints, edge: Ints, reach: Floats) -> tupl
         np.searchsorted(vertex[beginning], vertex[ending], side) for side in ("left", "right")
     )
     first = np.repeat(ending, high - low)
-    within = np.arange(len(first)) - np.repeat(np.cumsum(high - low) - (high - low), high - low)
-    second = beginning[np.repeat(low, high - low) + within]
+    second = beginning[np.repeat(low, high - low) + within(high - low)]
     one, other = edge[first], edge[second]
     kink = cross(surface.direction[one], surface.direction[other]) < -SINE
     kink &= surface.body[one] != surface.body[other]

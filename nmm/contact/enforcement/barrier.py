@@ -68,7 +68,7 @@ class Barrier(IterativeEnforcement):
             rough = solve_springs(springs, tools, 1e-2, budget=IterationBudget(20, 2, 0))
         except SolveError as fault:
             return singular_answer(springs, linear_solver, fault)
-        force = max(float(np.abs(f).max(initial=0.0)) for f in springs.forces(rough.increment))
+        force = float(np.abs(springs.forces(rough.increment)).max(initial=0.0))
         compliance = float(np.mean(compliances(problem)[0])) if problem.n_contacts else 1.0
         moved = float(np.abs(problem.normal_rows @ rough.increment).max(initial=0.0))
         fit = 1e-3 * (force * compliance or moved or compliance)

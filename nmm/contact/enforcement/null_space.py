@@ -12,7 +12,7 @@ import numpy as np
 
 from integration.arrays import Floats, Ints, same
 from integration.sparse import csc_array, csr_array
-from nmm.contact.problem.row_products import compressed, pushed
+from nmm.contact.problem.row_products import compressed
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform
 from nmm.solvers.unchecked import magnitudes
@@ -74,9 +74,7 @@ class NullSpace(Transform):
     def apply(self, problem: StepProblem) -> StepProblem:
         """Return the problem in the other unknowns."""
         matrix, basis, start = self._matrix(problem.matrix), self.basis, self.start
-        normal, tangent = (
-            csr_array(part @ basis) for part in (problem.normal_rows, problem.tangent_rows)
-        )
+        normal, tangent = (csr_array(part @ basis) for part in problem.rows)
         for part in (normal, tangent):
             part.sort_indices()
         moved, among = problem.matrix @ start, problem.among
@@ -97,8 +95,7 @@ class NullSpace(Transform):
     def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
         """Return the answer in all unknowns, with the multipliers."""
         increment = self.basis @ answer.increment + self.start
-        rows = problem.normal_rows, problem.tangent_rows
-        push = pushed(*rows, answer.normal_force, answer.shear_force)
+        push = problem.pushed(answer.normal_force, answer.shear_force)
         rest = problem.force - problem.matrix @ increment - push
         return replace(answer, increment=increment, multipliers=self._multipliers(rest))
 

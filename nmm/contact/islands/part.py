@@ -10,7 +10,7 @@ from scipy.sparse import csc_array, csr_array
 from integration.arrays import Floats, Index, Ints
 from nmm.compiled import compiled
 from nmm.contact.problem.cut_springs import CutSprings
-from nmm.contact.problem.row_products import Compressed, compressed, pushed
+from nmm.contact.problem.row_products import Compressed, compressed
 from nmm.solvers.unchecked import made_of
 
 
@@ -26,9 +26,9 @@ def part_of(springs: CutSprings, unknowns: Ints, contacts: Ints, increment: Floa
     *matrix, pulled = _between(compressed(p.matrix), unknowns, place, increment)
     *normal_rows, opened = _between(compressed(p.normal_rows), contacts, place, increment)
     *tangent_rows, slid = _between(compressed(p.tangent_rows), contacts, place, increment)
-    forces = np.stack(springs.forces(increment))
+    forces = springs.forces(increment)
     forces[:, contacts] = 0.0
-    pushes = pushed(p.normal_rows, p.tangent_rows, *forces)
+    pushes = p.pushed(*forces)
     columns, shape = p.columns_of(contacts), (len(contacts), n)
     columns["gap"] += opened
     columns["slip"] += slid

@@ -70,7 +70,7 @@ def _worst_contacts(springs: CutSprings, increment: Floats) -> tuple[int, ...]:
     """Up to ten contacts on whose unknowns the out-of-balance force is largest."""
     problem = springs.problem
     rest = np.abs(springs.weight**2 * springs.residual(increment).force)
-    felt = sum(magnitudes(part) @ rest for part in (problem.normal_rows, problem.tangent_rows))
+    felt = sum(magnitudes(part) @ rest for part in problem.rows)
     return tuple(int(i) for i in np.argsort(-felt)[:10])
 
 

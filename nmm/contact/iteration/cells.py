@@ -18,7 +18,7 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.coulomb import shear_bound, states
 from nmm.contact.problem.cut_springs import CutSprings
-from nmm.contact.problem.row_products import along, pushed
+from nmm.contact.problem.row_products import stretched
 from nmm.solvers.factor import Factor
 
 # Contacts up to which cells are followed, each by full matrices of all jumps, and cells for each.
@@ -69,8 +69,7 @@ class _Line:
         problem = springs.problem
         pattern = tools.memory.pattern_of(problem)
         factor = tools.linear.factorise(pattern.matrix(problem, *springs.stiffness))
-        rows = problem.normal_rows, problem.tangent_rows
-        each = (row for some in rows for row in some.toarray())  # at most 2 `FEW`
+        each = (row for some in problem.rows for row in some.toarray())  # at most 2 `FEW`
         answers = np.array([_jumps(springs, factor.solve(row)) for row in each]).T
         return cls(springs, factor, answers, _jumps(springs, increment))
 
@@ -99,7 +98,7 @@ class _Line:
         springs, problem = self.springs, self.springs.problem
         given = springs.stiffness * jumps.reshape(2, -1)
         left = given - springs.cut(*_trial(springs, jumps))
-        load = problem.force + pushed(problem.normal_rows, problem.tangent_rows, *left)
+        load = problem.force + problem.pushed(*left)
         return self.factor.solve(load, problem.among)
 
 
@@ -175,9 +174,7 @@ def _within(trial: Floats, tension: Floats, bound: Floats) -> Floats:
 
 def _jumps(springs: CutSprings, increment: Floats) -> Floats:
     """Return how far (2 m,) contacts open and slip under unknowns (n,), in m."""
-    problem = springs.problem
-    rows = problem.normal_rows, problem.tangent_rows
-    return np.concatenate([along(some, increment) for some in rows])
+    return stretched(*springs.problem.rows, increment).ravel()
 
 
 def _trial(springs: CutSprings, jumps: Floats) -> Floats:

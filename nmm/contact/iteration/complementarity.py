@@ -14,7 +14,6 @@ from integration.arrays import Bools, Floats
 from nmm.compiled import compiled
 from nmm.contact.problem.coulomb import frictionless, shear_bound
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
-from nmm.contact.problem.row_products import stretched
 
 
 @dataclass(frozen=True)
@@ -141,9 +140,7 @@ class Complementarity:
         if not self.exact.any():
             return IterationResult(springs, increment, springs.residual(increment).size, 0, 0, "")
         forces = np.stack(springs.cut(point.normal, point.shear))
-        problem = springs.problem
-        rows = problem.normal_rows, problem.tangent_rows
-        moved = np.stack([problem.gap, problem.slip]) + stretched(*rows, increment)
+        moved = springs.problem.jumps(increment)
         meant = np.stack(springs.cut(*(forces + moved / self.compliance)))
         largest = float(np.abs(forces).max(initial=0.0))
         lacks = float(np.abs(np.where(self.exact, meant - forces, 0.0)).max(initial=0.0))

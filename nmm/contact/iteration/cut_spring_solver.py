@@ -214,4 +214,4 @@ def inside_start(sides: Complementarity, tools: Tools) -> InteriorIterate:
     kept, _ = tools.memory.factor_of(alike, tools.linear)
     problem, within = springs.problem, tools.options.interior.within
     increment = kept.factor.solve(problem.force, problem.among)
-    return sides.start(increment, np.stack(alike.forces(increment)), within)
+    return sides.start(increment, alike.forces(increment), within)

@@ -69,8 +69,7 @@ def _rounds(at: MultiplierIterate, tools: Tools, goal: Goal, count: int) -> Mult
 def _stiffer(at: MultiplierIterate, scale: float) -> MultiplierIterate:
     """The same forces as multipliers of stiff springs."""
     springs = at.result.springs
-    exact = ~springs.problem.own_stiffness
-    forces = np.stack(springs.forces(at.result.increment))
+    exact, forces = ~springs.problem.own_stiffness, springs.forces(at.result.increment)
     stiff = stiff_springs(springs.problem, scale).shifted(np.where(exact, forces, 0.0))
     return replace(at, result=replace(at.result, springs=stiff))
 
@@ -88,7 +87,7 @@ def _interior_round(
     start, before = inside_start(sides, tools), at or first_round(springs)
     found = InteriorPoint(sides, tools).run(start, budget, goal).at_cost_of(before.result)
     forces = found.springs.forces(found.increment)
-    largest = max(float(np.abs(force).max(initial=0.0)) for force in forces)
+    largest = float(np.abs(forces).max(initial=0.0))
     gap = found.error * largest * float(compliance.max(initial=0.0))
     best = MultiplierIterate(found, before.count, gap, found.error)
     if len(problem.force) > SMALL:

@@ -6,7 +6,7 @@ from integration.arrays import Floats
 from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
 from nmm.contact.problem.coulomb import bound_slope
 from nmm.contact.problem.matrix_pattern import SpringPattern
-from nmm.contact.problem.row_products import pushed, stretched
+from nmm.contact.problem.row_products import stretched
 from nmm.solvers.linear import LinearSolver
 
 
@@ -49,10 +49,9 @@ class Linearised:
         flow = np.where(sides.active, at.flow, 0.0)
         bound = sides.bound(at.normal, at.slack[0], at.flow[0])
         held = np.array([problem.limits.tension - at.normal, bound - at.shear, bound + at.shear])
-        rows = problem.normal_rows, problem.tangent_rows
-        carried = pushed(*rows, at.normal, at.shear)
+        carried = problem.pushed(at.normal, at.shear)
         self.rest = problem.matrix @ at.increment - problem.force + carried
-        gap, slip = np.array([problem.gap, problem.slip]) + stretched(*rows, at.increment)
+        gap, slip = problem.jumps(at.increment)
         self.rest_gap = gap - flow[0] - (at.normal - springs.shift[0]) * give[0]
         self.rest_slip = slip - flow[1] + flow[2] - (at.shear - springs.shift[1]) * give[1]
         self.rest_slack = np.where(sides.active, at.slack - np.where(sides.active, held, 0), 0.0)
@@ -65,10 +64,9 @@ class Linearised:
         known_t = self.rest_slip - flow[1] + flow[2] - ratio[1] * rest[1] + ratio[2] * rest[2]
         normal = self.spring_n * known_n
         shear = self.spring_t * known_t + self.mixed * normal
-        rows = problem.normal_rows, problem.tangent_rows
-        load = self.rest + pushed(*rows, normal, shear)
+        load = self.rest + problem.pushed(normal, shear)
         increment, self.solves = -self.factor.apply(load), self.solves + 1
-        opened, slipped = stretched(*rows, increment)
+        opened, slipped = stretched(*problem.rows, increment)
         normal = self.spring_n * (opened + known_n)
         shear = self.spring_t * (slipped + known_t) + self.mixed * normal
         bound = -self.slope * normal

@@ -112,15 +112,13 @@ def multiplier_round(
 
 def measured(found: IterationResult, count: int) -> MultiplierIterate:
     """Iterate whose springs are in balance, with what its multipliers lack beyond rounding."""
-    springs = found.springs
-    forces = np.stack(springs.forces(found.increment))
-    jump = np.abs(np.where(springs.problem.own_stiffness, 0.0, forces - springs.shift))
+    springs, problem = found.springs, found.springs.problem
+    forces = springs.forces(found.increment)
+    jump = np.abs(np.where(problem.own_stiffness, 0.0, forces - springs.shift))
     gap = jump / springs.stiffness
-    problem = springs.problem
-    rows = problem.normal_rows, problem.tangent_rows
-    counts = gap > UNKNOWN * terms_of_stretches(*rows, found.increment)
+    counts = gap > UNKNOWN * terms_of_stretches(*problem.rows, found.increment)
     gap = np.where(counts, gap, 0.0)
-    part = gap / compliances(springs.problem)
+    part = gap / compliances(problem)
     size = float(np.abs(forces).max(initial=0.0))
     largest = [float(quantity.max(initial=0.0)) for quantity in (gap, part)]
     return MultiplierIterate(found, count, largest[0], largest[1] * (1.0 / size if size else 0.0))
@@ -132,7 +130,7 @@ def updated(last: MultiplierIterate, growth: float) -> MultiplierIterate:
     ``lambda <- lambda + p d``, cut at the limits.
     """
     springs, own = last.result.springs, last.result.springs.problem.own_stiffness
-    forces = np.stack(springs.forces(last.result.increment))
+    forces = springs.forces(last.result.increment)
     stiffness = np.where(own, 1.0, growth) * springs.stiffness
     springs = replace(springs, stiffness=stiffness, shift=np.where(own, 0.0, forces))
     return replace(last, result=replace(last.result, springs=springs))

@@ -7,6 +7,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from integration.contraction import some, summed
+from nmm.contact.detection.surface import unordered_key
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.step_friction import StepFriction
 from nmm.contact.points.contact_points import AT_ENDS, ContactPoints
@@ -70,7 +71,7 @@ class ContactLosses:
         start, slides = self.start, ~self.softening
         limit, from_start = self._limits
         one, other = (body[edge] for edge in (start.edge_a, start.edge_b))
-        pair = np.minimum(one, other) * (int(body.max(initial=0)) + 1) + np.maximum(one, other)
+        pair = unordered_key(one, other, int(body.max(initial=0)) + 1)
         counted = self._rubbed * self._mean_share
         return StepFriction(
             start.key[slides],
@@ -126,7 +127,7 @@ class ContactLosses:
 def softening(laws: ContactLaws, contacts: ContactPoints, limits: Limits) -> Bools:
     """Return which contacts (m,) are bonds that lose their strength in the course of steps."""
     if not laws.hold(contacts):
-        return np.zeros(contacts.gap.shape, dtype=bool)
+        return np.zeros(len(contacts), dtype=bool)
     return contacts.bonded & ~contacts.tied & np.isfinite(limits.tension)
 
 

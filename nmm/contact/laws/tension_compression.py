@@ -49,7 +49,7 @@ class AsymmetricSprings(Transform):
         )
         first[at], friction[at] = share * whole, friction[at] / share
         left[at] -= (1 - share) * force
-        limits, rows = problem.limits, (problem.normal_rows, problem.tangent_rows)
+        limits = problem.limits
         pairs: dict[str, tuple[Any, Any]] = {
             "gap": (problem.gap, problem.gap[at]),
             "slip": (problem.slip, none),
@@ -61,7 +61,7 @@ class AsymmetricSprings(Transform):
             "compliant": (problem.own_stiffness, np.ones(len(at), dtype=bool)),
         }
         bounds = ((limits.tension, none), (limits.cohesion, none), (friction, none))
-        normal_rows, tangent_rows = (csr_array(vstack([part, part[at]])) for part in rows)
+        normal_rows, tangent_rows = (csr_array(vstack([part, part[at]])) for part in problem.rows)
         joined: dict[str, Any] = {name: np.concatenate(pair) for name, pair in pairs.items()}
         return replace(
             problem,

@@ -42,15 +42,13 @@ def rounding(springs: CutSprings, increment: Floats) -> float:
     is left of forces which cancel: where functions depend on one another nothing balances it.
     """
     problem, grain = springs.problem, ROUNDINGS * float(np.finfo(float).eps)
-    rows, starts = (problem.normal_rows, problem.tangent_rows), (problem.gap, problem.slip)
-    forces = np.stack(springs.forces(increment))
-    sizes = np.abs(starts) + terms_of_stretches(*rows, increment)
-    lost = np.where(forces != 0, grain * springs.stiffness * sizes, 0.0)
+    forces = springs.forces(increment)
+    lost = np.where(forces != 0, grain * springs.stiffness * _terms(problem, increment), 0.0)
     left = grain * (magnitudes(problem.matrix) @ np.abs(increment))
     if problem.among is not None:
         left += LOADS / ROUNDINGS * grain * problem.among
-    left += sum(magnitudes(part).T @ one for part, one in zip(rows, lost, strict=True))
-    held = pushed(*rows, *forces)
+    left += sum(magnitudes(part).T @ one for part, one in zip(problem.rows, lost, strict=True))
+    held = problem.pushed(*forces)
     inner = problem.matrix @ increment
     whole = max(norm(springs.weight * part) for part in (inner, held, problem.force))
     whole = max(whole, problem.least(springs.weight))
@@ -64,10 +62,15 @@ def cancelling(springs: CutSprings, increment: Floats) -> Floats:
     that is a small part of them tells no free motion (`nmm.solvers.accuracy.known.known_load`).
     """
     problem = springs.problem
-    rows, starts = (problem.normal_rows, problem.tangent_rows), (problem.gap, problem.slip)
-    sizes = springs.stiffness * (np.abs(starts) + terms_of_stretches(*rows, increment))
-    held = np.where(np.stack(springs.forces(increment)) != 0, sizes, 0.0)
+    sizes = springs.stiffness * _terms(problem, increment)
+    held = np.where(springs.forces(increment) != 0, sizes, 0.0)
     load = np.abs(problem.force) if problem.among is None else problem.among
     inner = magnitudes(problem.matrix) @ np.abs(increment)
-    normal, tangent = (magnitudes(part) for part in rows)
+    normal, tangent = map(magnitudes, problem.rows)
     return np.asarray(load + inner + pushed(normal, tangent, *held))
+
+
+def _terms(problem: StepProblem, increment: Floats) -> Floats:
+    """(2, m) sizes of the terms of which gaps and slips are the sums (m)."""
+    starts = np.abs((problem.gap, problem.slip))
+    return np.asarray(starts + terms_of_stretches(*problem.rows, increment))

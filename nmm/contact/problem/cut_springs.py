@@ -50,14 +50,13 @@ class CutSprings:
         return problem.weight if own else problem.weight_with(stiffness)
 
     def trial(self, increment: Floats) -> tuple[Floats, Floats]:
-        """Normal and shear force of uncut springs."""
-        gap, slip = self.problem.gaps(increment), self.problem.slips(increment)
-        normal = self.stiffness[0] * gap + self.shift[0]
-        return normal, self.stiffness[1] * slip + self.shift[1]
+        """Normal and shear forces (m,) of uncut springs (N)."""
+        normal, shear = self.stiffness * self.problem.jumps(increment) + self.shift
+        return normal, shear
 
-    def forces(self, increment: Floats) -> tuple[Floats, Floats]:
-        """Admissible forces."""
-        return self.cut(*self.trial(increment))
+    def forces(self, increment: Floats) -> Floats:
+        """(2, m) admissible forces (N)."""
+        return np.array(self.cut(*self.trial(increment)))
 
     def states(self, increment: Floats) -> tuple[Bools, Bools]:
         """(m,) open contacts, (m,) closed contacts that slide."""

@@ -15,7 +15,7 @@ from integration.arrays import Bools, Floats, Ints, same
 from integration.sparse import csc_array, csr_array
 from nmm.contact.problem.contact_state import ContactState
 from nmm.contact.problem.residual_kernel import weighted
-from nmm.contact.problem.row_products import Compressed, along, compressed
+from nmm.contact.problem.row_products import Compressed, along, compressed, pushed, stretched
 from nmm.frozen import MadeOnce
 from nmm.interfaces.limits import Limits as Limits
 from nmm.solvers.accuracy.known import known_load
@@ -101,6 +101,11 @@ class StepProblem:
         found["limits"] = Limits(*(bound[contacts] for bound in vars(self.limits).values()))
         return found | {"compliant": None if self.compliant is None else self.compliant[contacts]}
 
+    @property
+    def rows(self) -> tuple[csr_array, csr_array]:
+        """Normal and tangent rows."""
+        return self.normal_rows, self.tangent_rows
+
     @MadeOnce
     def compressed_rows(self) -> tuple[Compressed, Compressed]:
         """Normal and tangent rows as compiled code takes them."""
@@ -137,6 +142,14 @@ class StepProblem:
     def slips(self, increment: Floats) -> Floats:
         """(m,) total slips at the end of the step, elastic and sliding part."""
         return self.slip + along(self.tangent_rows, increment)
+
+    def jumps(self, increment: Floats) -> Floats:
+        """(2, m) the same gaps and slips."""
+        return np.array((self.gap, self.slip)) + stretched(*self.rows, increment)
+
+    def pushed(self, normal: Floats, shear: Floats) -> Floats:
+        """(n,) what contact forces (N) do on the unknowns."""
+        return pushed(*self.rows, normal, shear)
 
     def out_of_balance(self, increment: Floats, normal: Floats, shear: Floats) -> Floats:
         """(n,) ``matrix @ d + normal_rows.T @ N + tangent_rows.T @ T - force``."""

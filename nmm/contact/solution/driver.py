@@ -24,7 +24,6 @@ from nmm.contact.laws.history_iteration import HistoryIteration
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.contact_rows import ContactRows
 from nmm.contact.problem.coulomb import shear_bound
-from nmm.contact.problem.row_products import pushed
 from nmm.contact.problem.step_problem import SLIDE, StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform, solve_through
 from nmm.contact.solution.posed_step import PosedStep, Posing
@@ -81,7 +80,7 @@ class ContactSolver:
 
     def alone(self, contacts: ContactPoints, request: StepRequest) -> ContactSolution | None:
         """Solve a step in time without contact points; return None where there are any."""
-        if contacts.gap.size or request.step is None or request.null_space is not None:
+        if len(contacts) or request.step is None or request.null_space is not None:
             return None
         self.last = None
         return self.untouched.solve(contacts, request)
@@ -167,8 +166,7 @@ class ContactSolver:
         if self.last is None:
             return None
         problem, answer = self.last
-        rows = problem.normal_rows, problem.tangent_rows
-        carried = pushed(*rows, answer.normal_force, answer.shear_force)
+        carried = problem.pushed(answer.normal_force, answer.shear_force)
         return problem.force - product(problem.matrix, answer.increment) - carried
 
     def condition(self, solver: LinearSolver) -> float | None:

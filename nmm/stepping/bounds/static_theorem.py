@@ -14,6 +14,7 @@ import numpy as np
 from scipy.sparse import block_diag, csc_array, csr_array, diags_array, hstack, vstack
 
 from integration.arrays import Floats, Ints
+from integration.ragged import within
 from nmm.assembly.state import State
 from nmm.effects.base import Instant
 from nmm.model.planning.plan import Plan
@@ -224,7 +225,7 @@ def _loose(stiffness: csr_array, label: Ints) -> csr_array:
     """Rows (k, m) of the directions that a stiffness (m, m), in groups by label (m,), leaves."""
     order, size = np.argsort(label, kind="stable"), np.bincount(label)
     place = np.empty(len(label), dtype=np.int64)
-    place[order] = np.arange(len(label)) - np.repeat(np.cumsum(size) - size, size)
+    place[order] = within(size)
     entries, stiffest, rows = stiffness.tocoo(), abs(stiffness).max(), [csr_array((0, len(label)))]
     for length in np.unique(size[size <= 3 * LARGEST]):  # groups of one size together
         groups = np.flatnonzero(size == length)

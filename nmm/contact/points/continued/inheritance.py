@@ -15,6 +15,7 @@ import numpy as np
 from covers.approximation.manifold import Manifold
 from covers.change.parentage import Parentage
 from integration.arrays import Bools, Floats, Ints
+from nmm.contact.detection.surface import unordered_key
 from nmm.contact.detection.tolerances import SAME_PLACE
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.joint_book import JointBook, given_up
@@ -203,5 +204,5 @@ def _places(
     at_one, at_two = (edges.at(*side) for side in points.sides)
     swap = one > two
     place = np.where(swap[:, None], np.hstack([at_two, at_one]), np.hstack([at_one, at_two]))
-    pair = np.minimum(one, two) * count + np.maximum(one, two)
+    pair = unordered_key(one, two, count)
     return np.where(np.minimum(one, two) >= 0, pair, -1), place
