@@ -13,6 +13,7 @@ import shapely
 
 from integration.arrays import Floats, Ints
 from integration.ragged import offsets, ranges, sums
+from integration.rings import open_ring, ring_integrals
 
 _TOPOLOGY = ("next_point", "ring_of_point", "polygon_of_ring", "polygon_of_point", "first_point")
 
@@ -51,7 +52,7 @@ class Polygons:
             (n, 2), or with a coordinate that is not finite.
         """
         rings = [
-            _open_ring(ring, f"polygon {n}, {'exterior' if k == 0 else f'hole {k}'}")
+            open_ring(ring, f"polygon {n}, {'exterior' if k == 0 else f'hole {k}'}")
             for n, polygon in enumerate(polygons)
             for k, ring in enumerate(polygon)
         ]
@@ -125,7 +126,8 @@ class Polygons:
 
     def take(self, indices: npt.ArrayLike) -> Polygons:
         """The polygons at ``indices`` (integers or a mask), in that order."""
-        chosen = np.arange(len(self))[np.asarray(indices, dtype=_index_type(indices))]
+        given = np.asarray(indices)
+        chosen = np.arange(len(self))[given if given.dtype == bool else given.astype(np.int64)]
         rings, ring_counts = ranges(self.polygon_offsets, chosen)
         points, point_counts = ranges(self.ring_offsets, rings)
         return Polygons(self.points[points], offsets(point_counts), offsets(ring_counts))
@@ -214,22 +216,12 @@ class Polygons:
 
     @cached_property
     def _ring_integrals(self) -> tuple[Floats, Floats]:
-        """Signed area and first moments of each ring about its first vertex.
+        return ring_integrals(self.points, self.ring_offsets, self.next_point)
 
-        Differences from a vertex of the ring keep the accuracy of rings far from the origin. An
-        area below the rounding of its terms is no area.
-        """
-        start = self.ring_offsets[:-1]
-        x, y = (self.points - np.repeat(self.points[start], np.diff(self.ring_offsets), axis=0)).T
-        x1, y1 = x[self.next_point], y[self.next_point]
-        left, right = x * y1, x1 * y
-        twice = left - right
-        area = 0.5 * sums(twice, self.ring_offsets)
-        rounding = np.finfo(float).eps * sums(np.abs(left) + np.abs(right), self.ring_offsets)
-        area[np.abs(area) <= rounding] = 0.0
-        sx = sums(twice * (x + x1), self.ring_offsets)
-        sy = sums(twice * (y + y1), self.ring_offsets)
-        return area, np.stack([sx, sy], axis=1) / 6.0
+    @cached_property
+    def extent(self) -> float:
+        """Diagonal of the box around all polygons."""
+        return float(np.hypot(*np.ptp(self.points, axis=0)))
 
 
 def diameters(polygons: Polygons) -> Floats:
@@ -239,25 +231,6 @@ def diameters(polygons: Polygons) -> Floats:
     low = np.minimum.reduceat(polygons.points, polygons.first_point, axis=0)
     high = np.maximum.reduceat(polygons.points, polygons.first_point, axis=0)
     return np.asarray(np.hypot(*(high - low).T))
-
-
-def _index_type(indices: npt.ArrayLike) -> type:
-    return bool if np.asarray(indices).dtype == bool else np.int64
-
-
-def _open_ring(ring: npt.ArrayLike, where: str) -> Floats:
-    points = np.array(ring, dtype=float)
-    if points.size == 0:
-        points = points.reshape(0, 2)
-    if points.ndim != 2 or points.shape[1] != 2:
-        raise ValueError(f"{where}: shape {points.shape}: (n, 2) expected: give rows of x and y")
-    if len(points) > 1 and points[0, 0] == points[-1, 0] and points[0, 1] == points[-1, 1]:
-        points = points[:-1]
-    if len(points) < 3:
-        raise ValueError(
-            f"{where}: {len(points)} vertices: at least 3 expected: add vertices or drop the ring"
-        )
-    return points
 
 
 def _check_finite(polygons: Polygons) -> None:

@@ -183,7 +183,7 @@ def _kept(old: Manifold, new: Manifold) -> tuple[Ints, Ints]:
 def _along(old: Manifold, new: Manifold) -> Relation:
     """Boundary edges of the same region that lie on each other, in the same direction."""
     a, b = old.boundary, new.boundary
-    near = SAME_EDGE * float(np.hypot(*np.ptp(old.elements.points, axis=0)))
+    near = SAME_EDGE * old.elements.extent
     first, second = (
         [shapely.LineString(ends) for ends in np.stack([e.start, e.end], axis=1)] for e in (a, b)
     )

@@ -70,7 +70,7 @@ def at_point(manifold: Manifold, point: Floats, regions: Bools | None = None) ->
         (N,) which input regions count; None is all.
     """
     polygons = manifold.elements.to_shapely()
-    near = NEAR * _size(manifold)
+    near = NEAR * manifold.elements.extent
     found = np.flatnonzero(shapely.dwithin(polygons, shapely.points(point), near))
     if regions is not None:
         found = found[regions[manifold.element_region[found]]]
@@ -101,7 +101,7 @@ def along_segment(
     length = float(np.hypot(*(b - a)))
     t = (b - a) / (length or 1.0)  # no edge lies on a segment without length
     n = np.array([-t[1], t[0]])
-    near = NEAR * _size(manifold)
+    near = NEAR * manifold.elements.extent
     on_line = (np.abs((edges.start - a) @ n) < near) & (np.abs((edges.end - a) @ n) < near)
     ends = np.sort(np.stack([(edges.start - a) @ t, (edges.end - a) @ t], axis=1), axis=1)
     low, high = np.maximum(ends[:, 0], 0), np.minimum(ends[:, 1], length)
@@ -152,7 +152,3 @@ def _parts(start: Floats, end: Floats, weight: Floats) -> Floats:
     share = np.stack([last - weight, last], axis=-1) / last[:, -1:, None]
     parts = start[:, None, None] + share[..., None] * (end - start)[:, None, None]
     return np.asarray(parts.reshape(-1, 2, 2))
-
-
-def _size(manifold: Manifold) -> float:
-    return float(np.hypot(*np.ptp(manifold.elements.points, axis=0)))

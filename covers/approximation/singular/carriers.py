@@ -112,7 +112,7 @@ def touching_covers(cut: CutCells, point: Floats) -> Ints:
     """Return the covers of elements with a vertex at the point; else of those that contain it."""
     owner = cut.elements.polygon_of_point
     away = np.hypot(*(cut.elements.points - point).T)
-    size = np.hypot(*np.ptp(cut.elements.points, axis=0))
+    size = cut.elements.extent
     found = np.unique(owner[away <= SAME_VERTEX * size])
     if not len(found):  # a point inside an element
         low = np.minimum.reduceat(cut.elements.points, cut.elements.first_point, axis=0)

@@ -43,7 +43,7 @@ def nearest_points(old: Model, before: StressPoints, new: Model, after: StressPo
     """Nearest old material point (Q,) of the same region, -1 without any."""
     from scipy.spatial import KDTree
 
-    size = float(np.hypot(*np.ptp(new.manifold.elements.points, axis=0)))
+    size = new.manifold.elements.extent
     places = []
     for model, known in ((old, before), (new, after)):
         rule = known.rule

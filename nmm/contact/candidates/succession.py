@@ -63,7 +63,7 @@ def succeeding(
     laid = ~(added & inside) | seamless
     book, added = book.only(laid), (added & ~(inside & seamless))[laid]
     book = placed(book, candidates.joints(book, state), added)
-    size = float(np.hypot(*np.ptp(kin.new.elements.points, axis=0)))
+    size = kin.new.elements.extent
     found, points = candidates.sought(ContactRecord(book), state, HELD * size)
     book = replace(book, left=book.left.take(np.zeros(0, dtype=np.int64)))  # handed on just now
     points = points.take(~points.is_joint)

@@ -160,4 +160,4 @@ def elements_along(setup: Setup, position: Floats, way: Floats) -> Ints:
 
 def _reach(setup: Setup) -> float:
     """Return the distance from material within which a point counts as on it (m)."""
-    return NEAR * float(np.hypot(*np.ptp(setup.model.manifold.elements.points, axis=0)))
+    return NEAR * setup.model.manifold.elements.extent

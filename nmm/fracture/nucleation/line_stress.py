@@ -84,10 +84,10 @@ class LineStress:
     def _tree(self) -> shapely.STRtree:
         return shapely.STRtree(self.model.manifold.elements.to_shapely())
 
-    @cached_property
+    @property
     def _reach(self) -> float:
         return NEAR * self._size
 
-    @cached_property
+    @property
     def _size(self) -> float:
-        return float(np.hypot(*np.ptp(self.model.manifold.elements.points, axis=0)))
+        return self.model.manifold.elements.extent

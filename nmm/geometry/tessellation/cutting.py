@@ -60,7 +60,7 @@ def cut(regions: Polygons, joints: Floats) -> Cut:
     GeometryError
         Joints almost coincide in such a way that a block touches itself.
     """
-    low, size = regions.points.min(axis=0), float(np.hypot(*np.ptp(regions.points, axis=0)))
+    low, size = regions.points.min(axis=0), regions.extent
     local = regions.with_points((regions.points - low) / size)
     shapes = local.to_shapely()
     found, dangles = faces_and_dangles(_lines(local, shapes, (joints - low) / size), _GRID)

@@ -3,8 +3,6 @@
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from integration.arrays import Floats
 from nmm.assembly.material_points import MaterialPoints
 from nmm.assembly.moving.kinematics import Kinematics
@@ -62,7 +60,7 @@ class Stepper:
         self.solver, self.kinematics, self.seconds = solver, kinematics, clock.seconds
         self.budget = Budget()
         self.reference = discretisation.model.manifold.elements.points
-        self.size = float(np.hypot(*np.ptp(self.reference, axis=0)))
+        self.size = discretisation.model.manifold.elements.extent
         self._current, self._lay, self.clock = CurrentDiscretisation(discretisation), lay, clock
         self._among = discretisation.plan.contact is not None
         self._geometry: Geometry | None = None
@@ -264,7 +262,7 @@ class Stepper:
             self._integrator = self._ruling(integrator)
         self.solver = solver
         self._steps.solve_by(solver)
-        self.size = max(self.size, float(np.hypot(*np.ptp(self.reference, axis=0))))
+        self.size = max(self.size, change.new.manifold.elements.extent)
         self._geometry = None
         self._carried = CarriedState(self._carried.reach)
         self.forget()

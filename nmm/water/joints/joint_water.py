@@ -197,7 +197,7 @@ def _apertures(setup: Setup, edge_a: Ints, edge_b: Ints) -> tuple[Floats, Floats
 
 
 def _prescribed(setup: Setup, sites: WetJoints) -> list[PrescribedHead]:
-    near = NEAR * float(np.hypot(*np.ptp(setup.model.manifold.elements.points, axis=0)))
+    near = NEAR * setup.model.manifold.elements.extent
     found = []
     for item in setup.scene.joint_heads:  # a handful
         ends = np.array([item.point, item.point] if item.segment is None else item.segment)

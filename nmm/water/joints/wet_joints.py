@@ -52,7 +52,7 @@ class WetJoints:
         """Return the joints of a model with their points."""
         manifold = model.manifold
         ends = np.stack([joints.start, joints.end], axis=1).reshape(-1, 2)
-        size = float(np.hypot(*np.ptp(manifold.elements.points, axis=0)))
+        size = manifold.elements.extent
         nodes, places = _merged(ends, NEAR * size)
         a, b = (
             material_points(manifold, np.repeat(manifold.boundary.element[edge], 2), ends)

@@ -76,7 +76,7 @@ def heirs(kin: Parentage, new: ContactPoints, old: ContactPoints) -> PointHeirs:
     every = np.arange(kin.old.n_bodies)
     pair_new, place_new = _places(kin.new, new, kin.bodies.main, len(every))
     pair_old, place_old = _places(kin.old, old, every, len(every))
-    size = float(np.hypot(*np.ptp(kin.new.elements.points, axis=0)))
+    size = kin.new.elements.extent
     if not len(pair_new) or not len(pair_old):
         none = np.full(len(pair_new), -1), np.full(len(pair_old), -1)
         return PointHeirs(*none, np.zeros(len(pair_new), dtype=bool))

@@ -164,7 +164,7 @@ def _tractions(
     old, kin = change.old, change.parentage.elements
     near = np.unique(kin.parent[np.isin(kin.child, child)])
     shapes = old.manifold.elements.take(near).to_shapely()
-    reach = NEAR * float(np.hypot(*np.ptp(old.manifold.elements.points, axis=0)))
+    reach = NEAR * old.manifold.elements.extent
     row, found = shapely.STRtree(shapes).query(
         shapely.points(points), predicate="dwithin", distance=reach
     )

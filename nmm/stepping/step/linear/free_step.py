@@ -2,8 +2,6 @@
 
 from dataclasses import replace
 
-import numpy as np
-
 from integration.arrays import Floats
 from nmm.errors import SolveError
 from nmm.model.discretisation import CurrentDiscretisation
@@ -85,7 +83,7 @@ class FreeStepSolver:
 
     def _refuse_adrift(self, motion: float) -> None:
         """Refuse a static step that moves a loose part out of the domain."""
-        size = float(np.hypot(*np.ptp(self._current.model.manifold.elements.points, axis=0)))
+        size = self._current.model.manifold.elements.extent
         if motion > size and self._system.adrift():
             raise SolveError(
                 f"points move by {motion:.3g} m: expected a supported system: the matrix is nearly "

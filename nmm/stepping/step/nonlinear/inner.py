@@ -76,8 +76,7 @@ class InternalForces:
         self._effects = EffectForces(current, state, end, span, kinematics, symmetrised)
         self.elastic, self.start = self._matter.elastic, self._matter.start
         self.scale = current.model.force_scale
-        points = current.model.manifold.elements.points
-        self.size = float(np.hypot(*np.ptp(points, axis=0)))
+        self.size = current.model.manifold.elements.extent
 
     def at(
         self, increment: Floats, before: Iterate | None = None, after: State | None = None
