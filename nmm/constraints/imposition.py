@@ -19,7 +19,6 @@ from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.constraints.interface import Interface, Triplets
 from nmm.effects.base import Instant
-from nmm.errors import FormulationError
 from nmm.formulation import GHOST
 from nmm.registry import Registry
 
@@ -28,7 +27,6 @@ if TYPE_CHECKING:
 
     from nmm.assembly.tractions.held_edges import HeldEdge
     from nmm.constraints.nitsche.volume_lift import PressureLift
-    from nmm.formulation import SupportMethod
 
 
 @dataclass
@@ -229,27 +227,3 @@ class Method:
         area = place.weight * model.thickness
         interface = Interface(place, None, area, "edge", np.array(held), displacement)
         return self.impose(model, [interface])[0]
-
-
-def chosen(model: Model, asked: str, springs: str) -> str:
-    """Return what is ``asked``; "auto" is ``springs`` where matter is not linear, else Nitsche's.
-
-    Multipliers hold an edge in means over cells, whose tractions cannot follow stresses that jump:
-    the plastic limit of a beam held so on two cells of its depth is 1.19 in place of 1.5 times the
-    first yield, 1.49 by springs.
-    """
-    if asked != "auto":
-        return asked
-    return springs if model.may_bend else "nitsche"
-
-
-def support_method(model: Model, part: "SupportMethod", size: float | None, degree: int) -> Method:
-    """Return the method that a formulation names; "auto" is springs for blocks."""
-    blocks = size is None and part.method == "auto"
-    kind = "penalty" if blocks else chosen(model, part.method, "penalty")
-    if size is None and IMPOSITIONS.load(kind).needs_cells:
-        raise FormulationError(
-            f'[supports] method: "{kind}": for covers of meshes: expected "penalty" with type = '
-            '"block": change the method or the cover'
-        )
-    return Method(kind, size, degree, part.stiffness, part.gamma, part.ghost)

@@ -12,17 +12,12 @@ from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
+from nmm.constraints.chosen_method import support_method
 from nmm.constraints.declared_supports import declared, lets_turn, sudden_starts
 from nmm.constraints.driven_bodies import DrivenBodies, driven
-from nmm.constraints.imposition import Imposition, support_method
-from nmm.constraints.interface import nearest
-from nmm.constraints.laid_springs import (
-    exerting_the_same,
-    free_where,
-    laid_under_stress,
-    spring_rate,
-    stretch_of,
-)
+from nmm.constraints.followed_supports import exerted, followed, with_those_gone
+from nmm.constraints.imposition import Imposition
+from nmm.constraints.laid_springs import laid_under_stress
 from nmm.constraints.nitsche.volume_lift import sharing
 from nmm.constraints.points_under_stress import laid_at_points
 from nmm.constraints.ties.tied_interfaces import TiedInterfaces
@@ -91,49 +86,17 @@ class Supports(TiedInterfaces):
 
         Springs that the change makes stiffer or softer exert what they did.
         """
-        new, state, former = type(self).from_setup(change.setup), change.state, change.former
-        pairs = self._each(former, Instant.of(former))
-        known = {tie.interface.name: (tie, jump) for tie, jump in pairs}
-        for number, tie in enumerate(new.ties):
-            interface, before = tie.interface, known.get(tie.interface.name)
-            anchor = interface.motion(state)
-            stretch = np.zeros_like(anchor)
-            if before is not None:
-                old, jump = before
-                positions = interface.first.position, old.interface.first.position
-                stretch = nearest(*positions, stretch_of(old))
-                had = np.broadcast_to(old.interface.anchor, jump.shape)
-                at, beyond, past = (
-                    nearest(*positions, one) for one in (had, jump, spring_rate(old))
-                )
-                anchor = exerting_the_same(at, beyond, past, spring_rate(tie))
-            tie = free_where(tie, stretch == 0)
-            new.ties[number] = replace(tie, interface=replace(interface, anchor=anchor))
+        new, former = type(self).from_setup(change.setup), change.former
+        held = self._each(former, Instant.of(former))
+        new.ties = followed(held, new.ties, change.state)
         return new
 
     def left(self, change: "Change", stresses: Sequence[StressAt]) -> list[Reactions]:
         """Return, on the new model, what the supports exert that the change takes away."""
-        stay = {one.name for one in change.setup.scene.supports}
-        tables = [one for one in change.before.scene.supports if one.name not in stay]
-        scene = change.setup.scene.model_copy(update={"supports": tuple(tables)})
-        setup = replace(change.setup, scene=scene)
-        gone = self.follow(replace(change, setup=setup))
+        gone = self.follow(with_those_gone(change))
         gone.receive_stresses(stresses)
-        return gone._standing(change.state, self)
-
-    def _standing(self, state: State, before: "Supports") -> list[Reactions]:
-        """Return what each support exerts; multipliers are those of the supports ``before``."""
-        known = {tie.interface.name: tie for tie in before.ties}
-        found = []
-        pulls = self._pulls(state, Instant.of(state))
-        for tie, (pull, beside) in zip(self.ties, pulls, strict=True):
-            old, place = known[tie.interface.name], tie.interface.first
-            if tie.shared is not None and len(old.interface) == len(tie.interface):
-                pull = pull + old.point_forces(state, np.zeros_like(pull))
-            found.append(
-                Reactions(place.elements, place.position, tie.interface.held * pull, beside)
-            )
-        return found
+        state = change.state
+        return exerted(gone.ties, gone._pulls(state, Instant.of(state)), state, self.ties)
 
     @MadeOnce
     def steady(self) -> bool:

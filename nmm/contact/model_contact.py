@@ -5,10 +5,8 @@ here both are handed what the last accepted step left.
 """
 
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import partial
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from covers.change.parentage import Parentage
 from integration.arrays import Bools, Floats, Ints
@@ -26,23 +24,19 @@ from nmm.contact.solution.record import (
     correcting,
 )
 from nmm.contact.solution.step_bonds import StepBonds
+from nmm.contact.workings import ContactWorkings
 from nmm.frozen import with_parts
 
 if TYPE_CHECKING:
     from nmm.assembly.tractions.held_edges import HeldEdge
-    from nmm.contact.candidates.candidates import Candidates
     from nmm.contact.candidates.held_back import Crossed
     from nmm.contact.detection.contacts import Contacts
     from nmm.contact.detection.crossing import Motion
     from nmm.contact.laws.laid_under_stress import StressIn
     from nmm.contact.problem.step_problem import Limits
-    from nmm.contact.solution.driver import ContactSolver
-    from nmm.contact.solution.geometry import ContactGeometry
-    from nmm.contact.solution.momentum import Momentum
-    from nmm.contact.solution.steps import ContactSteps
 
 
-class ModelContact:
+class ModelContact(ContactWorkings):
     """All contacts of a model.
 
     The step loop asks for `candidates` once a step, solves them by `steps` as often as it needs,
@@ -50,21 +44,8 @@ class ModelContact:
 
     Attributes
     ----------
-    model
-        What is in contact.
     record
         What the last accepted step left.
-    laws, partners
-        Which laws act, and which points may meet.
-    exact
-        Whether nothing penetrates, so that speeds jump at an impact.
-    bonds
-        Those that consistent terms hold.
-    geometry, momentum, solver
-        Rows of contact points, what keeps momentum, and the solver of a problem;
-        what solves is made in the first step.
-    steps
-        What puts the problem of a step together and solves it.
     stored_first
         Energy (J) of contacts that carry something at the start (`lie_under`, `stands`).
     """
@@ -73,66 +54,17 @@ class ModelContact:
     _laid: ContactPoints | None = None
 
     def __init__(self, model: Model, parts: ContactParts, start: State) -> None:
-        self.laws, self.partners, self.exact = parts.laws, parts.partners, parts.enforcement.exact
-        sides = self.partners.sides
-        book = follow_joints(
-            sides.surface(start.frames, start.deformation),
-            model,
-            self.partners.interfaces,
-            self.laws,
-            parts.joint_rule,
-            parts.cracks,
-        )
+        laws, partners = parts.laws, parts.partners
+        surface = partners.sides.surface(start.frames, start.deformation)
+        given = laws, parts.joint_rule, parts.cracks
+        book = follow_joints(surface, model, partners.interfaces, *given)
         seamless = parts.mixed & parts.cracks.points(model.manifold, book.points)
-        self.bonds, points = StepBonds.of(model, book.points, self.laws, seamless)
+        bonds, points = StepBonds.of(model, book.points, laws, seamless)
+        laws.refuse_soft(points.take(~points.tied))
+        super().__init__(model, parts, bonds, points)
         book = replace(book, points=points)
-        self.laws.refuse_soft(book.points.take(~book.points.tied))
         self.record, self._unbonded = ContactRecord(book), book.broken
-        self.model, self._parts, self._first = model, parts, book.points
         self._sought: tuple[Contacts | None, Crossed | None] = None, None
-
-    @cached_property
-    def geometry(self) -> "ContactGeometry":
-        """Rows of contact points."""
-        from nmm.contact.solution.geometry import ContactGeometry
-
-        bends, traces = self._parts.bends, self._parts.trace_space
-        return ContactGeometry(self.model, self.partners.sides, self._first, bends, traces)
-
-    @cached_property
-    def _candidates(self) -> "Candidates":
-        """What seeks the contact points of a step."""
-        from nmm.contact.candidates.candidates import Candidates
-
-        ways = self._parts.keeps_energy, self._parts.enforcement.ahead
-        return Candidates(self.partners, self.laws, self.geometry, *ways)
-
-    @cached_property
-    def momentum(self) -> "Momentum":
-        """Inertia of the bodies as contact needs it."""
-        from nmm.contact.solution.momentum import Momentum
-
-        geometry, model = self.geometry, self.model
-        # Exact forces among dependent functions are not always found when a step is solved again.
-        on_meshes = geometry.joined or (self.exact and bool(model.manifold.dependent))
-        from_start = geometry.curved if model.of_blocks else on_meshes
-        return Momentum(self.model, self.partners.sides, self._parts.held, from_start)
-
-    @cached_property
-    def solver(self) -> "ContactSolver":
-        """What solves the contacts of a step."""
-        from nmm.contact.solution.driver import ContactSolver
-
-        enforcement, compliance = self._parts.enforcement, self.momentum.compliance
-        return ContactSolver(self.model, self.laws, enforcement, compliance)
-
-    @cached_property
-    def steps(self) -> "ContactSteps":
-        """What puts the problem of a step together."""
-        from nmm.contact.solution.steps import ContactSteps
-
-        surface = self.partners.surface
-        return ContactSteps(self.laws, self.geometry, self.bonds, self.solver, surface)
 
     def go_on(self, old: "ModelContact", kin: Parentage, state: State) -> None:
         """Go on from the contact of an earlier model: joints and contacts continue."""
@@ -149,7 +81,7 @@ class ModelContact:
 
         book = laid_under_stress(self.record.book, self.model, self.laws, stress)
         self.record = replace(self.record, book=book)
-        size = float(np.hypot(*np.ptp(self.model.manifold.elements.points, axis=0)))
+        size = self.model.manifold.elements.extent
         found, points = self._candidates.sought(self.record, state, FIRST_REACH * size)
         points = points.take(~points.is_joint)
         if len(points):

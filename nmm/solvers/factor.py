@@ -46,7 +46,6 @@ class Decomposition(Protocol):
 
     def solve(self, rhs: Floats) -> Floats:
         """Return the solution of one right-hand side."""
-        ...
 
 
 class Decomposer(Protocol):

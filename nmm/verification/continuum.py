@@ -14,7 +14,8 @@ from nmm.assembly.errors import Field, FieldErrors, field_errors, stresses
 from nmm.assembly.model import Model
 from nmm.assembly.places import Place, at_point, on_edges
 from nmm.assembly.state import initial_state
-from nmm.constraints.imposition import Imposition, support_method
+from nmm.constraints.chosen_method import support_method
+from nmm.constraints.imposition import Imposition
 from nmm.constraints.interface import Interface
 from nmm.constraints.springs import Springs
 from nmm.constraints.supports import Supports

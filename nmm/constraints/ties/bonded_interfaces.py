@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from nmm.assembly.model import Model
-from nmm.constraints.imposition import Imposition, Method, chosen
+from nmm.constraints.chosen_method import chosen
+from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.laid_springs import laid_under_stress
 from nmm.constraints.springs import Springs, glue_stiffness, joint_springs
 from nmm.constraints.ties.followed_ties import followed
