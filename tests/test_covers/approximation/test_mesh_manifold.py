@@ -104,19 +104,6 @@ def test_congruent_cells_share_their_integrals_and_give_the_same_matrices(
         assert abs(one - other).max() < within * abs(other).max(), name
 
 
-def test_cells_that_other_discs_touch_are_not_congruent() -> None:
-    square = far(SQUARE, 1e5)
-    cover = MovingLeastSquares.regular(_bounds(square), 0.1, degree=1)
-    shapes = [np.flatnonzero(cover.cell_shape == one) for one in np.unique(cover.cell_shape)]
-    assert len(shapes) > 1
-    for cells in shapes:
-        first = cover.vertices[cover.cell_vertices[cells, 0]]
-        away = cover.patch_centre[cover.cell_patches[cells]] - first[:, None]
-        here = cover.cell_patches[cells] >= 0
-        assert (here == here[0]).all()
-        assert np.abs((away - away[0])[here]).max() < 1e-9
-
-
 @pytest.mark.parametrize(
     "make",
     [

@@ -10,7 +10,6 @@ from skfem import MeshQuad, MeshTri
 from covers.mathematical.bspline import BSplines, cardinal_pieces
 from covers.mathematical.graded import Graded
 from covers.mathematical.mesh_edges import mesh_edges
-from covers.mathematical.meshless.kernels import KERNELS
 from covers.mathematical.meshless.moving_least_squares import MovingLeastSquares
 from covers.mathematical.quads import Quads
 from covers.mathematical.registry import COVERS, cover_class
@@ -138,21 +137,6 @@ def test_spline_gradients_are_continuous_across_spans():
     np.testing.assert_allclose(slopes[0], slopes[1], atol=1e-12)
 
 
-@pytest.mark.parametrize("name", KERNELS)
-def test_kernels_vanish_with_their_slope_at_the_rim_and_differ_by_their_slope(name):
-    kernel = KERNELS[name]
-    r = np.linspace(0.01, 0.99, 50)
-    slope = (kernel(r + 1e-6)[0] - kernel(r - 1e-6)[0]) / 2e-6
-    np.testing.assert_allclose(kernel(r)[1], slope, atol=1e-8)
-    for value in kernel(np.array([1.0, 1.5])):
-        np.testing.assert_allclose(value, 0, atol=1e-15)
-
-
-def test_shepard_weights_are_positive():
-    cover = MovingLeastSquares.regular(BOUNDS, 0.2, degree=0)
-    assert (cover.weights(*random_points(cover, 500)) >= 0).all()
-
-
 def test_parallelograms_stay_polynomial_and_distorted_quads_do_not():
     assert sheared_quads().weight_degree == 2
     assert jittered_quads().weight_degree is None
@@ -194,14 +178,6 @@ def test_bilinear_weights_of_a_distorted_quad_are_those_of_its_reference_square(
 def test_wrong_input_is_named(make, message):
     with pytest.raises(ValueError, match=message):
         make()
-
-
-def test_collinear_discs_do_not_determine_a_linear_fit():
-    net = Quads.regular([[0, 0], [1, 1]], 1.0)
-    nodes = np.array([[0.3, 0.5], [0.5, 0.5], [0.7, 0.5]])
-    cover = MovingLeastSquares.on_cells(nodes, np.ones(3), net.vertices, net.cell_vertices)
-    with pytest.raises(ValueError, match="do not determine a fit"):
-        cover.weights(np.zeros(1, dtype=np.int64), np.array([[0.4, 0.3]]))
 
 
 def test_a_point_far_from_its_cell_is_refused_by_distorted_quads():

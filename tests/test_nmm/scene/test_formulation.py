@@ -17,16 +17,6 @@ def test_nothing_named_means_classical_blocks() -> None:
     assert formulation.integrator.step == 1e-3
 
 
-def test_a_part_of_ones_own_passes_with_its_options() -> None:
-    text = '[cover]\ntype = "mine.covers:Hexagons"\nsize = "5 mm"\n[cover.options]\nangle = 0.3\n'
-    cover = parse_formulation(text).cover
-    assert (cover.type, cover.size, cover.options) == (
-        "mine.covers:Hexagons",
-        0.005,
-        {"angle": 0.3},
-    )
-
-
 @pytest.mark.parametrize(
     ("text", "parts"),
     [
@@ -71,10 +61,3 @@ def test_an_option_of_another_type_or_name_is_refused(option: dict[str, object],
     with pytest.raises(FormulationError, match=said):
         make_enforcement("penalty", option)
     assert make_enforcement("penalty", {"tolerance": 1}) is not None  # 1 is a number as 1.0 is
-
-
-@pytest.mark.parametrize("number", ["9" * 500, "-" + "1" * 40])
-def test_an_integer_among_options_that_no_float_holds_is_refused(number: str) -> None:
-    text = f"[cover]\ntype = 'graded'\nsize = 0.3\noptions = {{ focus = [[{number}, 0.5]] }}\n"
-    with pytest.raises(FormulationError, match=r"too many digits: expected a number up to 1e30"):
-        parse_formulation(text)

@@ -12,50 +12,9 @@ from pydantic import BaseModel
 
 from nmm.errors import SceneError
 from nmm.scene import Scene, canonical_text, json_schema, parse_scene, read_scene, scene_hash
-from nmm.scene.actions import GravityTable
 from nmm.scene.expected import expected
-from nmm.scene.matter.materials import Material
-from nmm.scene.solids import Block
 
-GOOD = """
-plane = "stress"
-thickness = "100 mm"
-[materials.concrete]
-young_modulus = "27.5 GPa"
-poisson_ratio = 0.2
-[interfaces.crack]
-bonded = true
-friction_angle = "37 deg"
-cohesion = "4.7 MPa"
-tensile_strength = "2.9 MPa"
-[[blocks]]
-name = "beam"
-material = "concrete"
-vertices = [[0, 0], ["400 mm", 0], [0.4, 0.1], [0, 0.1]]
-[[supports]]
-name = "left"
-point = [0.05, 0]
-fix = ["x", "y"]
-[[loads]]
-name = "jack"
-kind = "point"
-point = [0.2, 0.1]
-force = [0, "-1 kN"]
-[contact]
-[loading]
-until = "failure"
-"""
-
-
-def _faults(text: str) -> list[str]:
-    with pytest.raises(SceneError) as caught:
-        parse_scene(text, "s.toml")
-    return str(caught.value).splitlines()
-
-
-def _line(text: str) -> str:
-    (line,) = _faults(text)
-    return line
+from .good_scene import GOOD, fault_of, faults_of
 
 
 def test_quantities_arrive_in_si() -> None:
@@ -74,7 +33,7 @@ def test_quantities_arrive_in_si() -> None:
 def test_all_faults_are_reported_at_once_with_line_value_and_remedy() -> None:
     text = GOOD.replace("0.2\n[int", "0.7\n[int").replace('"-1 kN"', '"-1 kg"')
     text = text.replace('"concrete"\n', '"concret"\n').replace("thickness", "thicknes")
-    lines = _faults(text)
+    lines = faults_of(text)
     assert [line.split(": ")[:2] for line in lines] == [
         ["s.toml:3", "thicknes"],
         ["s.toml:6", "materials.concrete.poisson_ratio"],
@@ -149,47 +108,13 @@ def test_a_bad_value_is_one_line_with_place_and_remedy(
     old: str, new: str, parts: tuple[str, ...]
 ) -> None:
     assert old in GOOD
-    line = _line(GOOD.replace(old, new, 1))
+    line = fault_of(GOOD.replace(old, new, 1))
     assert [part for part in ("s.toml", *parts) if part not in line] == [], line
-
-
-def test_effects_that_lack_what_they_need_are_refused() -> None:
-    text = GOOD.replace("[contact]", "[inertia]\n[contact]").replace("[interfaces.crack]", "[x]")
-    report = "\n".join(_faults(text))
-    assert "duration missing" in report
-    assert "density missing" in report
-    assert "at least one interface" in report
-    assert "a static scene" in report  # [loading] in a dynamic scene
-
-
-def test_incompressible_material_is_refused_in_plane_strain_only() -> None:
-    text = GOOD.replace("= 0.2\n[", "= 0.5\n[")
-    assert parse_scene(text).materials["concrete"].poisson_ratio == 0.5
-    assert "0.4999" in _line(text.replace('"stress"', '"strain"'))
 
 
 def test_a_scene_without_blocks_is_refused() -> None:
     start, end = GOOD.index("[[blocks]]"), GOOD.index("[[supports]]")
-    assert "add [[blocks]]" in _line(GOOD[:start] + GOOD[end:])
-
-
-def test_two_interfaces_for_one_pair_are_refused() -> None:
-    text = GOOD.replace("[[blocks]]", "[interfaces.other]\nfriction_angle = 0.1\n[[blocks]]")
-    assert "a pair of its own" in _line(text)
-
-
-def test_the_interface_of_a_pair_goes_before_the_general_one() -> None:
-    text = GOOD.replace(
-        "[[blocks]]",
-        "[materials.steel]\nyoung_modulus = 2e11\npoisson_ratio = 0.3\n[interfaces.bond]\n"
-        'between = ["steel", "concrete"]\nfriction_angle = 0.1\n[[blocks]]',
-    )
-    scene = parse_scene(text, "s.toml")
-    assert scene.interface("concrete", "steel").friction_angle == 0.1
-    assert scene.interface("steel", "steel").cohesion == 4.7e6
-    only = parse_scene(text.replace("bonded", 'between = ["steel", "steel"]\nbonded'), "s.toml")
-    with pytest.raises(SceneError, match=r'between = \["concrete", "concrete"\]'):
-        only.interface("concrete", "concrete")
+    assert "add [[blocks]]" in fault_of(GOOD[:start] + GOOD[end:])
 
 
 def test_the_hash_sees_physics_and_neither_units_order_comments_nor_formulation() -> None:
@@ -237,20 +162,7 @@ def test_the_json_schema_offers_numbers_and_texts_with_units() -> None:
 
 def test_a_history_goes_forward_in_time() -> None:
     text = GOOD.replace('[0, "-1 kN"]', "[0, -1]\nhistory = [[1, 0], [1, 1]]")
-    assert "t increasing" in _line(text)
-
-
-def test_motion_after_failure_needs_densities() -> None:
-    assert "density missing" in _line(GOOD + 'motion_after_failure = "5 ms"\n')
-
-
-def test_a_scene_built_in_python_is_checked_like_a_file() -> None:
-    rock = Material(young_modulus=1e9, poisson_ratio=0.2)
-    block = Block(material="rock", vertices=((0, 0), (1, 0), (0, 1)))
-    scene = Scene(plane="strain", materials={"rock": rock}, blocks=(block,), gravity=None)
-    assert scene.blocks[0].vertices[1] == (1.0, 0.0)
-    with pytest.raises(ValueError, match="a density in kg/m3"):
-        Scene(plane="strain", materials={"rock": rock}, blocks=(block,), gravity=GravityTable())
+    assert "t increasing" in fault_of(text)
 
 
 @pytest.mark.parametrize(
@@ -258,22 +170,7 @@ def test_a_scene_built_in_python_is_checked_like_a_file() -> None:
     [("bonded = true", 'bonded = "yes"'), ('until = "failure"', "until = inf")],
 )
 def test_values_of_another_kind_are_not_converted(old: str, new: str) -> None:
-    assert new.split(" = ")[1].strip('"') in _line(GOOD.replace(old, new))
-
-
-@pytest.mark.parametrize(
-    "more",
-    [
-        '[[joint_sets]]\nname = "j"\ndip = {angle}\nspacing = 1.0\n',
-        '[[joint_sets]]\nname = "j"\ndip = 0.1\ndip_scatter = {angle}\nspacing = 1.0\n',
-        '[formulation.cover]\ntype = "quads"\nsize = 1.0\nangle = {angle}\n',
-    ],
-)
-def test_degrees_without_their_unit_are_no_angles(more):
-    parse_scene(GOOD + more.format(angle='"30 deg"'))
-    for angle in (30, 35.0, '"361 deg"'):
-        with pytest.raises(SceneError, match="expected an angle within a whole turn.*30 deg"):
-            parse_scene(GOOD + more.format(angle=angle))
+    assert new.split(" = ")[1].strip('"') in fault_of(GOOD.replace(old, new))
 
 
 def _described(model: type[BaseModel], seen: set[type[BaseModel]]) -> Iterator[tuple[str, Any]]:

@@ -222,22 +222,6 @@ def grown(cracks: list[Floats], fronts: list[int], angle: float) -> tuple[Floats
     return extended_lines(model.cut, cracks, ends, which, tips, np.full(len(which), angle), 0.1)
 
 
-@pytest.mark.parametrize(
-    ("fracture", "said"),
-    [
-        ("toughness = -1.0\nincrement = 0.1", "toughness"),
-        ("energy = 0.0\nincrement = 0.1", "energy"),
-        ("toughness = 1.0\nenergy = 1.0\nincrement = 0.1", "toughness or energy"),
-        ("increment = 0.1", "toughness or energy"),
-        ("toughness = 1.0\nincrement = 0.0", "increment"),
-        ("toughness = 1.0", "increment"),
-    ],
-)
-def test_a_table_that_says_nothing_sound_is_refused(fracture: str, said: str) -> None:
-    with pytest.raises(NmmError, match=said):
-        plate(fracture)
-
-
 def test_growth_without_a_crack_is_refused() -> None:
     text = notched_plate(FOLLOW)
     head, _, rest = text.partition("[[cracks]]")

@@ -156,23 +156,6 @@ def test_far_from_the_origin_cracks_begin_alike() -> None:
     assert "a crack began at [100001, 200000" in found.summary.changes[0]
 
 
-@pytest.mark.parametrize(
-    ("nucleation", "said"),
-    [
-        ("tensile_strength = -1.0", "tensile_strength"),
-        ("tensile_strength = 0.0", "tensile_strength"),
-        ("length = 0.1", "tensile_strength"),
-        ("tensile_strength = 3.0\nlength = 0.0", "length"),
-        ("tensile_strength = 3.0\ncrack_length = -1.0", "crack_length"),
-        ("tensile_strength = 3.0\nnumber = 0", "number"),
-        ("tensile_strength = 3.0\nstrength = 2.0", "strength"),
-    ],
-)
-def test_a_table_that_says_nothing_sound_is_refused(nucleation: str, said: str) -> None:
-    with pytest.raises(NmmError, match=said):
-        bar(nucleation=nucleation)
-
-
 def test_a_length_that_no_block_holds_is_refused_with_its_line() -> None:
     scene = bar(nucleation="tensile_strength = 3.0\nlength = 4.0")
     with pytest.raises(NmmError, match=r"length.*4 m"):

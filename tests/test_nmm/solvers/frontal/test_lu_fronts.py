@@ -11,7 +11,6 @@ from nmm.solvers.frontal import symbolic
 from nmm.solvers.frontal.cholesky import Cholesky
 from nmm.solvers.frontal.lu import FrontalLU
 from nmm.solvers.frontal.numbers import workspace
-from nmm.solvers.frontal.numbers.workspace import Workspace
 from nmm.solvers.libraries.superlu import SuperLU
 from nmm.solvers.linear import LinearSolver, jacobi_scale, make_solver
 from nmm.testing.solvers import is_cholesky, is_lu
@@ -174,14 +173,6 @@ def test_room_of_a_factor_that_is_gone_is_used_again() -> None:
     del found
     again = [FrontalLU().decompose(matrix) for _ in range(2)]
     assert place in [one.panels.numbers.ctypes.data for one in again]
-
-
-def test_room_without_a_user_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(workspace, "SPARE_NUMBERS", 1000)
-    for size in (300, 500, 800, 2000):
-        one, other = Workspace(size), Workspace(size)
-        del one, other
-        assert sum(map(len, workspace.SPARE)) <= 1000
 
 
 def test_one_plan_serves_both_factorisations_and_cholesky_still_looks_at_the_numbers() -> None:

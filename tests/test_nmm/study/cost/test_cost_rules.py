@@ -1,6 +1,5 @@
 """What a cost study may conclude: its reference, the orders of theory, where it ran from."""
 
-import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,11 +11,9 @@ from covers.mathematical.triangles import Triangles
 from nmm.errors import NmmError
 from nmm.geometry.tessellation.block_cover import BlockCover
 from nmm.plots.families import METHODS, styles
-from nmm.study.cases import running
 from nmm.study.cases.measure import record
-from nmm.study.cases.pool import run_here
 from nmm.study.cases.record import Record
-from nmm.study.cases.variants import StudyCase, cases_of
+from nmm.study.cases.variants import StudyCase
 from nmm.study.cost.cost_study import CostStudy, cost_study
 from nmm.study.cost.front import LEVELS, levels_of
 from nmm.study.cost.levels import levels
@@ -148,31 +145,3 @@ def test_a_method_has_one_look_whatever_stands_beside_it():
     assert len({look for look in METHODS.values() if look[0] != "#1d4e89"}) > 15
     twice = styles(["DDA", "DDA"], ["block 1", "block 1"])
     assert twice[0] != twice[1]
-
-
-def test_the_commit_is_that_of_the_checkout():
-    root = Path(running.__file__).resolve().parents[3]
-    if not (root / ".git").exists():
-        assert running.commit() == ""
-        return
-    log = ["git", "log", "-50", "--format=%H"]
-    known = subprocess.run(log, cwd=root, capture_output=True, text=True).stdout.split()
-    # others may have committed since the process first asked
-    assert running.commit().split(" ")[0] in known
-
-
-def test_parts_beside_a_scene_are_found_in_processes_of_a_pool(tmp_path, monkeypatch, bar_text):
-    (tmp_path / "soft_law.py").write_text(
-        "from nmm.materials.elastic import Elastic\n\n\nclass Soft(Elastic):\n    pass\n"
-    )
-    (tmp_path / "bar.toml").write_text(bar_text(law="soft_law:Soft"))
-    monkeypatch.chdir(tmp_path)
-    scene = nmm.read_scene("bar.toml")
-    monkeypatch.chdir("/")  # a worker elsewhere: the name of the file leads nowhere there
-    monkeypatch.setattr(sys, "path", [one for one in sys.path if one])
-    monkeypatch.chdir(tmp_path)
-    with allowing("soft_law"):
-        cases = cases_of(scene, DDA, {})
-    monkeypatch.chdir("/")
-    (record,) = run_here(cases, ["external_work"], 1, 1)
-    assert record.status == "converged", record.sentence

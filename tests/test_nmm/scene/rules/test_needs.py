@@ -1,0 +1,32 @@
+"""What effects need of a scene."""
+
+import pytest
+
+from nmm.scene import Scene
+from nmm.scene.actions import GravityTable
+from nmm.scene.matter.materials import Material
+from nmm.scene.solids import Block
+
+from ..good_scene import GOOD, fault_of, faults_of
+
+
+def test_effects_that_lack_what_they_need_are_refused() -> None:
+    text = GOOD.replace("[contact]", "[inertia]\n[contact]").replace("[interfaces.crack]", "[x]")
+    report = "\n".join(faults_of(text))
+    assert "duration missing" in report
+    assert "density missing" in report
+    assert "at least one interface" in report
+    assert "a static scene" in report  # [loading] in a dynamic scene
+
+
+def test_motion_after_failure_needs_densities() -> None:
+    assert "density missing" in fault_of(GOOD + 'motion_after_failure = "5 ms"\n')
+
+
+def test_a_scene_built_in_python_is_checked_like_a_file() -> None:
+    rock = Material(young_modulus=1e9, poisson_ratio=0.2)
+    block = Block(material="rock", vertices=((0, 0), (1, 0), (0, 1)))
+    scene = Scene(plane="strain", materials={"rock": rock}, blocks=(block,), gravity=None)
+    assert scene.blocks[0].vertices[1] == (1.0, 0.0)
+    with pytest.raises(ValueError, match="a density in kg/m3"):
+        Scene(plane="strain", materials={"rock": rock}, blocks=(block,), gravity=GravityTable())
