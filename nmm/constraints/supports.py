@@ -53,7 +53,7 @@ class Supports(TiedInterfaces):
         self._in_time, self._whole, self._caution = in_time, model, caution
         grounds = [tie.interface.displacement for tie in self.ties]
         self._grounds = [ground for ground in grounds if isinstance(ground, Ground)]
-        self._still = in_time and self.steady and len(self._grounds) == len(grounds)
+        self.jumps.still = in_time and self.steady and len(self._grounds) == len(grounds)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -88,7 +88,7 @@ class Supports(TiedInterfaces):
         """
         new, former = type(self).from_setup(change.setup), change.former
         held = self._each(former, Instant.of(former))
-        new.ties = followed(held, new.ties, change.state)
+        new.jumps.ties = followed(held, new.ties, change.state)
         return new
 
     def left(self, change: "Change", stresses: Sequence[StressAt]) -> list[Reactions]:
@@ -114,7 +114,7 @@ class Supports(TiedInterfaces):
         """
         if self._spaces:
             return None
-        return driven(self.ties, self._jumps(state, Instant.of(state)), state, end)
+        return driven(self.ties, self.jumps.at(state, Instant.of(state)), state, end)
 
     def work(self, before: State, after: State) -> float:
         """Mean reaction of each driven support times the way it is driven."""
@@ -147,7 +147,7 @@ class Supports(TiedInterfaces):
         work of a stress that acts there is withdrawn as if it were driven already: it goes back.
         """
         total = self.received_stress_energy(before) / 2
-        jumps = self._jumps(before, Instant.of(before))
+        jumps = self.jumps.at(before, Instant.of(before))
         for number, start, end in self._driven(before, after):
             if jumps[number].any():
                 first, last = self._ends(number, before, after)
@@ -197,7 +197,7 @@ class Supports(TiedInterfaces):
         In time a multiplier is the mean force of its step, in statics the force at its end.
         """
         tie = self.ties[number]
-        jump = self._jumps(after, Instant.of(after))[number]
+        jump = self.jumps.at(after, Instant.of(after))[number]
         last = self._with_added(tie.point_forces(after, jump), tie, after)
         if tie.shared is not None and self._in_time:
             return last, last
@@ -205,7 +205,7 @@ class Supports(TiedInterfaces):
 
     def _earlier(self, number: int, before: State) -> Floats:
         """Forces (m, 2) in N of a support on its points as the step began."""
-        tie, jump = self.ties[number], self._jumps(before, Instant.of(before))[number]
+        tie, jump = self.ties[number], self.jumps.at(before, Instant.of(before))[number]
         return self._with_added(tie.earlier_forces(before, jump), tie, before)
 
 

@@ -62,7 +62,7 @@ def test_diameter_is_the_diagonal_of_the_bounding_box(holed):
 
 def test_the_extent_is_the_diagonal_of_the_box_around_all_polygons():
     triangle = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
-    assert Polygons.from_vertices([triangle, triangle + [2.0, 3.0]]).extent == 5.0
+    assert Polygons.from_vertices([triangle, triangle + np.array([2.0, 3.0])]).extent == 5.0
 
 
 def test_taking_and_joining_are_inverse(assorted):

@@ -54,7 +54,7 @@ class ArtificialJoints(TiedInterfaces):
         """
         new, parents = type(self).from_setup(change.setup), change.parentage.elements.main
         keys = np.arange(len(change.old.manifold.elements)), parents
-        new.ties = followed(self.ties, new.ties, change, keys)
+        new.jumps.ties = followed(self.ties, new.ties, change, keys)
         return new
 
     @staticmethod

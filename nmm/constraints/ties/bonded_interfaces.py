@@ -76,7 +76,7 @@ class BondedInterfaces(TiedInterfaces):
         """
         new = type(self).from_setup(change.setup)
         regions = change.old.manifold.element_region, change.new.manifold.element_region
-        new.ties = followed(self.ties, new.ties, change, regions)
+        new.jumps.ties = followed(self.ties, new.ties, change, regions)
         return new
 
     @property

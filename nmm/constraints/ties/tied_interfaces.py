@@ -13,7 +13,6 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from integration.sparse import csc_array, csr_array, vstack
-from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.model import Model
 from nmm.assembly.moving.motion import middle
 from nmm.assembly.state import State
@@ -21,6 +20,7 @@ from nmm.assembly.stress_points import StressAt
 from nmm.assembly.tractions.held_edges import HeldEdge
 from nmm.constraints.imposition import Imposition
 from nmm.constraints.interface import joined
+from nmm.constraints.ties.kept_jumps import KeptJumps
 from nmm.constraints.turned_axes import rounded, turned_axes
 from nmm.effects.base import Effect, Instant, Span, StepForce
 
@@ -45,19 +45,20 @@ class TiedInterfaces(Effect):
     def __init__(
         self, ties: Sequence[Imposition], n_unknowns: int, turning: Model | None = None
     ) -> None:
-        self.ties = list(ties)
+        self.jumps = KeptJumps(ties)
         # Multipliers hold jumps of lines.
-        self._turning_model = None if any(tie.shared is not None for tie in self.ties) else turning
+        self._turning_model = None if any(tie.shared is not None for tie in ties) else turning
         self._n = n_unknowns
         self._kept: tuple[Floats, csc_array] | None = None  # the matrix, at angles
-        self._motions = KeptOfPlaces(self._moved)
-        # Jumps of motions.
-        self._last: tuple[list[tuple[Floats, Floats]], Instant, list[Floats]] | None = None
-        self._still = False  # whether the ground stands still as time goes on
         self._spaces = list({id(t.shared): t.shared for t in ties if t.shared}.values())
         unlike = [t.interface.bodies for t in ties if t.turns]
         self._stresses: Sequence[StressAt] = ()
         self._turning = np.unique(np.concatenate([*unlike, np.zeros(0, dtype=np.int64)]))
+
+    @property
+    def ties(self) -> list[Imposition]:
+        """The interfaces with their methods."""
+        return self.jumps.ties
 
     @property
     def about(self) -> str:
@@ -192,8 +193,8 @@ class TiedInterfaces(Effect):
             shared.values, shared.before = values, before
 
     def forget(self) -> None:
-        self._kept = self._last = None
-        self._motions.forget()
+        self._kept = None
+        self.jumps.forget()
 
     def energy(self, state: State) -> float:
         """Energy (J) stored in ``state``, with places of its own instant."""
@@ -239,25 +240,7 @@ class TiedInterfaces(Effect):
 
     def _each(self, state: State, end: Instant) -> Iterator[tuple[Imposition, Floats]]:
         """Each tie with its jump (m, 2) from where the ground is at an instant."""
-        return zip(self.ties, self._jumps(state, end), strict=True)
-
-    def _jumps(self, state: State, end: Instant) -> list[Floats]:
-        motions, last = self._motions.of(state), self._last
-        if last is not None and last[0] is motions and self._alike(last[1], end):
-            return last[2]
-        pairs = zip(self.ties, motions, strict=True)
-        jumps = [tie.interface.jump(motion, end) for tie, motion in pairs]
-        self._last = motions, end, jumps
-        return jumps
-
-    def _alike(self, one: Instant, other: Instant) -> bool:
-        """Whether the ground has the same place at two instants."""
-        same = one.load_factor == other.load_factor
-        return same and (self._still or one.time == other.time)
-
-    def _moved(self, state: State) -> list[tuple[Floats, Floats]]:
-        """Relative displacement of the sides, that by driven ground apart."""
-        return [tie.interface.motions(state) for tie in self.ties]
+        return zip(self.ties, self.jumps.at(state, end), strict=True)
 
 
 _NOTHING = (np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros(0))
