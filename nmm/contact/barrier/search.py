@@ -103,7 +103,7 @@ def _free(newton: Newton, point: InteriorIterate) -> Start:
 
 def _end(newton: Newton, problem: StepProblem, answer: StepAnswer) -> Start:
     """Start where the same step was solved with rows that have turned since."""
-    gap, slip = problem.gaps(answer.increment), problem.slips(answer.increment)
+    gap, slip = problem.jumps(answer.increment)
     forces = answer.normal_force, answer.shear_force
     return Start(answer.increment, newton.curves.trials(gap, slip, *forces))
 

@@ -155,7 +155,7 @@ class TiedBonds(Transform):
 
     def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
         others = self._others(problem)
-        gap, slip = problem.gaps(answer.increment), problem.slips(answer.increment)
+        gap, slip = problem.jumps(answer.increment)
         normal, shear = self.forces(answer.increment)
         return replace(
             answer,

@@ -9,6 +9,7 @@ penalty. Where tractions vary along a joint they answer both parts, and the pena
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
+from integration.ragged import offsets, within
 from integration.sparse import csr_array
 from nmm.contact.points.contact_points import TIED, ContactPoints
 
@@ -36,13 +37,11 @@ def counting(tied: ContactPoints, penalty: Floats) -> csr_array:
     number, share = _numbered(_joint(tied)), tied.history[TIED]
     size, members = np.bincount(number), np.argsort(number, kind="stable")
     length, point = size[number], np.repeat(np.arange(len(number)), size[number])
-    begin = np.cumsum(length) - length
     # Entry by entry, the points of a row's joint one after the other.
-    nth = np.arange(len(point)) - begin[point]
-    column = members[(np.cumsum(size) - size)[number[point]] + nth]
+    column = members[offsets(size)[number[point]] + within(length)]
     part = ((1 - share) / length)[point] + np.where(column == point, share[point], 0.0)
-    limits = np.append(begin, len(point))
-    return csr_array((penalty[point] * part, column, limits), shape=(len(number), len(number)))
+    shape = (len(number), len(number))
+    return csr_array((penalty[point] * part, column, offsets(length)), shape=shape)
 
 
 def beside(contacts: ContactPoints, gone: Bools) -> Bools:

@@ -86,7 +86,7 @@ class Barrier(IterativeEnforcement):
 def _answer(well: Potential, tools: Tools, found: IterationResult, tolerance: float) -> StepAnswer:
     """Forces under the bound of their own normal force, and the verdict on them."""
     problem = well.problem
-    gap, slip = problem.gaps(found.increment), problem.slips(found.increment)
+    gap, slip = problem.jumps(found.increment)
     pull = well.pull(gap, slip)
     reach = np.where(well.spring, well.bound(pull.normal) / problem.shear_stiffness, well.width / 2)
     is_open = np.where(well.spring, gap > well.stretch, well.distance(gap) >= 1)

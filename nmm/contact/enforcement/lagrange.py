@@ -168,7 +168,7 @@ def _corrected(
     problem: StepProblem, active: ActiveSet, increment: Floats, normal: Floats, shear: Floats
 ) -> ActiveSet:
     limits, own = problem.limits, problem.own_stiffness
-    gap, slip = problem.gaps(increment), problem.slips(increment)
+    gap, slip = problem.jumps(increment)
     force = max(float(np.abs(normal).max(initial=0.0)), float(np.abs(shear).max(initial=0.0)))
     compliance = compliances(problem)
     near_force, near_gap, near_slip = (

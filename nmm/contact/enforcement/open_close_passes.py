@@ -63,7 +63,7 @@ class OpenClosePasses:
                     springs = ActiveSet(np.ones_like(springs.closed), springs.sliding, springs.sign)
                     continue
                 return self._answer(springs, self._singular(springs, fault))
-            gap, slip = self.problem.gaps(self.increment), self.problem.slips(self.increment)
+            gap, slip = self.problem.jumps(self.increment)
             found = next_active_set(self.problem, springs, gap, slip)
             friction_from = np.minimum(
                 self.problem.normal_stiffness * gap, self.problem.limits.tension
@@ -83,7 +83,7 @@ class OpenClosePasses:
 
     def _answer(self, springs: ActiveSet, verdict: Verdict | None) -> StepAnswer:
         p = self.problem
-        gap, slip = p.gaps(self.increment), p.slips(self.increment)
+        gap, slip = p.jumps(self.increment)
         normal, shear = forces(p, springs, gap, slip)
         residual = relative_residual(p, p.weight, self.increment, normal, shear)
         passes = len(self.trail) - (verdict is not None and verdict.code in ("cycle", "passes"))
