@@ -4,48 +4,36 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from integration.arrays import Floats
-from nmm.assembly.material_points import MaterialPoints
 from nmm.assembly.moving.kinematics import Kinematics
 from nmm.assembly.state import State
 from nmm.effects.base import Instant
 from nmm.integrators.base import Integrator
 from nmm.integrators.starting import rule_of
 from nmm.model.build import reshaped
-from nmm.model.discretisation import CurrentDiscretisation, Discretisation
+from nmm.model.discretisation import Discretisation
 from nmm.model.solver_settings import solver_of_run
-from nmm.solvers.linear import Factor, LinearSolver
+from nmm.solvers.linear import LinearSolver
 from nmm.stepping.step.budget import Budget
 from nmm.stepping.step.carried import CarriedState, LaidAnew
-from nmm.stepping.step.clock import Clock
+from nmm.stepping.step.present import PresentModel
 from nmm.stepping.step.remap import Lay, laid_as, laid_here
-from nmm.stepping.step.step_solver import StepSolver
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
-    from nmm.assembly.model import Model
     from nmm.contact.points.contact_points import ContactPoints
     from nmm.contact.solution.record import Breaking, BrokenBonds, ContactRecord
     from nmm.controls.path_equation import PathEquation
     from nmm.effects.change import Change
     from nmm.geometry.geometry import Geometry
-    from nmm.model.planning.plan import Plan
 
 
-class Stepper:
+class Stepper(PresentModel):
     """Takes the steps of a run: nothing of a trial step is kept unless it is accepted.
 
     Attributes
     ----------
-    solver, kinematics
-        The linear solver, and how bodies move.
     budget
         What the run may cost.
-    reference
-        (P, 2) the elements' vertices at the start (m).
-    size
-        Diagonal of the domain (m).
-    clock, seconds
-        Wall-clock seconds by phase.
     """
 
     def __init__(
@@ -56,17 +44,11 @@ class Stepper:
         kinematics: Kinematics,
         lay: Lay | None = None,
     ) -> None:
-        clock = Clock()
-        self.solver, self.kinematics, self.seconds = solver, kinematics, clock.seconds
-        self.budget = Budget()
-        self.reference = discretisation.model.manifold.elements.points
-        self.size = discretisation.model.manifold.elements.extent
-        self._current, self._lay, self.clock = CurrentDiscretisation(discretisation), lay, clock
         self._among = discretisation.plan.contact is not None
-        self._geometry: Geometry | None = None
         self._integrator = self._ruling(integrator)
-        carries = self._integrator.carries
-        self._steps = StepSolver(self._current, solver, kinematics, self.size, carries, clock)
+        super().__init__(discretisation, solver, kinematics, self._integrator.carries)
+        self.budget, self._lay = Budget(), lay
+        self._geometry: Geometry | None = None
         self._carried = CarriedState(self._steps.reach())
 
     def _ruling(self, integrator: Integrator) -> Integrator:
@@ -104,11 +86,6 @@ class Stepper:
         self.plan.forget()
 
     @property
-    def small(self) -> bool:
-        """Whether displacements are small."""
-        return self.kinematics.small
-
-    @property
     def integrator(self) -> Integrator:
         """The time integrator."""
         return self._integrator
@@ -126,31 +103,6 @@ class Stepper:
     def geometry(self) -> "Geometry | None":
         """Blocks and cracks, where an event has changed those with which scene or stage began."""
         return self._geometry
-
-    @property
-    def discretisation(self) -> Discretisation:
-        """What is solved now."""
-        return self._current.discretisation
-
-    @property
-    def model(self) -> "Model":
-        """Its model."""
-        return self._current.model
-
-    @property
-    def plan(self) -> "Plan":
-        """The effects on it."""
-        return self._current.plan
-
-    @property
-    def vertices(self) -> MaterialPoints:
-        """The elements' vertices, which are followed."""
-        return self._steps.mover.vertices
-
-    @property
-    def factor(self) -> Factor | None:
-        """The last factor of a system without contacts."""
-        return self._steps.factor
 
     def attempt(
         self,
@@ -267,10 +219,6 @@ class Stepper:
         self._carried = CarriedState(self._carried.reach)
         self.forget()
 
-    def candidates(self, state: State, reach: float, step: float | None) -> "ContactPoints":
-        """Return the contact points of a step in which no point moves further than ``reach``."""
-        return self._steps.candidates(state, reach, step)
-
     def remember(self) -> "ContactRecord | None":
         """Return the present record of contact, for `restore`."""
         return None if self.plan.contact is None else self.plan.contact.record
@@ -279,31 +227,6 @@ class Stepper:
         """Take back what was accepted since `remember`."""
         if self.plan.contact is not None and record is not None:
             self.plan.contact.restore(record)
-
-    @property
-    def broken_bonds(self) -> int:
-        """Number of joint points whose bond is broken."""
-        return 0 if self.plan.contact is None else self.plan.contact.broken_bonds
-
-    def place(self, state: State) -> Floats:
-        """Return where the elements' vertices are (P, 2)."""
-        return self._steps.mover.place(state)
-
-    def velocity(self, state: State) -> Floats:
-        """Return how fast the elements' vertices are (P, 2)."""
-        inertia = self.plan.inertia
-        return self.vertices.velocity(state, None if inertia is None else inertia.turning(state))
-
-    def condition(self, state: State) -> float | None:
-        """Estimate the condition number of the last system, springs of contact included."""
-        if self.factor is not None:
-            return self.factor.condition()
-        contact = self.plan.contact
-        return None if contact is None else contact.solver.condition(self.solver)
-
-    def rounding_changes(self) -> list[Floats]:
-        """Changes (n,) that rounding may have made of the last static step without contact."""
-        return self._steps.rounding_changes()
 
     @property
     def _rule(self) -> Integrator:
