@@ -13,15 +13,11 @@ from integration.arrays import Bools, Floats
 from nmm.assembly.places import Place, on_segment
 from nmm.diffusion.determined import undetermined
 from nmm.diffusion.edges import Edge, Factor
+from nmm.diffusion.given import GivenField, VolumeSource
 from nmm.diffusion.holding import prescribed
 from nmm.diffusion.joints import Conductance, JointParts, across_blocks, across_cracks
 from nmm.diffusion.matrices import integrals, products, slopes
-from nmm.diffusion.problem import (
-    DiffusionProblem,
-    GivenField,
-    VolumeSource,
-    field_solver,
-)
+from nmm.diffusion.problem import DiffusionProblem, field_solver
 from nmm.effects.base import Setup
 from nmm.effects.loading.load_factor import course_of
 from nmm.errors import Fault, SceneError

@@ -21,6 +21,7 @@ from covers.scalar.space import ScalarSpace
 from integration.arrays import Bools, Floats
 from nmm.assembly.kept import KeptOfArray
 from nmm.diffusion.edges import Edge, Factor
+from nmm.diffusion.given import GivenField, VolumeSource
 from nmm.effects.loading.load_factor import steadily
 from nmm.formulation import Solver
 from nmm.solvers.linear import Factor as Decomposed
@@ -41,25 +42,6 @@ def field_solver(manifold: Manifold, asked: Solver) -> LinearSolver:
     """Return the linear solver that a formulation names, for functions that may be dependent."""
     made = make_solver(asked.type, asked.options)
     return made.deflated() if manifold.dependent and not made.shift else made
-
-
-@dataclass(frozen=True)
-class VolumeSource:
-    """A source in the volume: its load (n,) at factor 1, and its factor."""
-
-    name: str
-    load: Floats
-    factor: Factor
-
-
-@dataclass(frozen=True)
-class GivenField:
-    """Prescribed field of whole bodies: which functions (n,), their unknowns (n,), and a factor."""
-
-    name: str
-    chosen: Bools
-    unknowns: Floats
-    factor: Factor
 
 
 @dataclass(frozen=True)

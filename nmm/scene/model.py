@@ -13,7 +13,6 @@ from pydantic import (
     field_validator,
     model_validator,
 )
-from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from nmm.errors import Fault, SceneError
 from nmm.formulation import Formulation
@@ -24,6 +23,7 @@ from nmm.scene.actions import (
     PlacedTable,
     SupportTable,
 )
+from nmm.scene.details import again, detail
 from nmm.scene.faults import Source
 from nmm.scene.fields import Count, Frozen, Length, TableName, Text, Time, example, fault
 from nmm.scene.matter.interfaces import InterfaceTable
@@ -237,25 +237,12 @@ class Scene(Frozen):
     @classmethod
     def _consistent(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
         """Collect contradictions and faults of single values in one error."""
-        details = [_detail(*finding) for finding in contradictions(data)]
+        details = [detail(*finding) for finding in contradictions(data)]
         try:
             scene = handler(data)
         except ValidationError as error:
-            single = [_again(item) for item in error.errors(include_url=False)]
+            single = [again(item) for item in error.errors(include_url=False)]
             raise ValidationError.from_exception_data(cls.__name__, single + details) from None
         if details:
             raise ValidationError.from_exception_data(cls.__name__, details)
         return scene
-
-
-def _detail(
-    path: tuple[str | int, ...], value: str, expected: str, remedy: str
-) -> InitErrorDetails:
-    context = {"value": value, "expected": expected, "remedy": remedy}
-    error = PydanticCustomError("fault", "expected {expected}: {remedy}", context)
-    return InitErrorDetails(type=error, loc=path, input=value)
-
-
-def _again(item: Any) -> InitErrorDetails:
-    error = PydanticCustomError(item["type"], item["msg"], item.get("ctx"))
-    return InitErrorDetails(type=error, loc=item["loc"], input=item["input"])

@@ -11,11 +11,10 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
-from nmm.formulation import Formulation, as_tables, formulation_hash
+from nmm.formulation import Formulation, as_tables
 from nmm.integrators.base import make_integrator
 from nmm.model.build import reshaped
 from nmm.model.origin import MovedBack
-from nmm.model.solver_settings import cures, warnings
 from nmm.model.staging.stage_geometry import present_setup
 from nmm.progress import Progress
 from nmm.results.frame import Topology
@@ -27,7 +26,6 @@ from nmm.results.storage.run_folder import RunFolder, checkpoint_header
 from nmm.results.storage.values import Arrays
 from nmm.results.summary import Summary
 from nmm.results.tee import Tee
-from nmm.scene import scene_hash
 from nmm.stepping.bounds.static_theorem import load_bound
 from nmm.stepping.checkpoints import Checkpoints
 from nmm.stepping.compiled_scene import CompiledScene
@@ -233,34 +231,6 @@ class Simulation(CompiledScene):
         if self.scene.in_time and duration is not None:
             times = duration, self.formulation.integrator.fixed_step
         return storage(self._choice(), times, len(elements.points), len(elements))
-
-    def identity(self) -> Summary:
-        """Return what is known of the run before it begins."""
-        seeds = [item.seed for item in self.scene.tessellations if item.seed is not None]
-        return Summary(
-            title=self.scene.title,
-            blocks=len(self.regions.polygons),
-            elements=len(self.stepper.model.manifold.elements),
-            covers=self.stepper.model.manifold.n_covers,
-            unknowns=self.stepper.model.manifold.n_unknowns,
-            linear_solver=self.stepper.solver.describe(self.stepper.model.manifold.n_unknowns),
-            cures=cures(
-                self.stepper.model.manifold, self.stepper.solver, self.stepper.plan.supports
-            ),
-            warnings=self._cautions(),
-            seed=seeds[0] if seeds else self.scene.seed,
-            scene_hash=scene_hash(self.scene),
-            formulation_hash=formulation_hash(self.formulation),
-        )
-
-    def _cautions(self) -> list[str]:
-        """Return what is known to spoil answers: of the model, then of its effects."""
-        of_effects = [
-            f"{name}: {effect.caution}"
-            for name, effect in self.stepper.plan.effects.items()
-            if effect.caution
-        ]
-        return warnings(self.stepper.model) + of_effects
 
 
 def _toml(model: "Scene | Formulation") -> str:

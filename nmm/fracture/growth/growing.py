@@ -27,7 +27,6 @@ from nmm.fracture.growth.small_holes import small_holes
 from nmm.fracture.growth.tips.crowded_tips import crowding
 from nmm.fracture.growth.tips.intensities import Intensities
 from nmm.fracture.growth.tips.measured import MeasuredTips
-from nmm.fracture.growth.tips.parallel_stress import kink_without_end_shear, parallel_stress
 from nmm.quantity import SPOT, Quantity
 
 if TYPE_CHECKING:
@@ -85,8 +84,8 @@ class GrowingCracks(Effect):
 
     @property
     def about(self) -> str:
-        said = f"{self._table.criterion}, pieces of {self.rule.increment:g} m"
-        return said + self._nucleation.about
+        pieces = f"pieces of {self.rule.increment:g} m{self._nucleation.about}"
+        return f"{self._table.criterion}, {pieces}"
 
     @property
     def energy_taken(self) -> float:
@@ -96,8 +95,7 @@ class GrowingCracks(Effect):
     @property
     def swing(self) -> float:
         """Largest zigzag (rad) of the paths, see `CrackFronts.swing`."""
-        cracks = self._setup.geometry.cracks
-        return self._fronts.swing(cracks, self._sofar.length)
+        return self._fronts.swing(self._setup.geometry.cracks, self._sofar.length)
 
     @property
     def shut(self) -> float:
@@ -174,34 +172,20 @@ class GrowingCracks(Effect):
         grown = found.take(rows)
         crowded = crowding(self._setup.model.cut, grown.tip)
         self._sofar = self._sofar.seen(grown.shut, crowded)
-        cracks, what = self._extended(self._with_parallel_stress(grown, view.state))
+        if self._table.parallel_stress:
+            grown = self._measured.with_parallel_stress(grown, view.state)
+        cracks, what = self._extended(grown)
         return Event(replace(geometry, cracks=cracks), what, continuous=self.continuous)
-
-    def _with_parallel_stress(self, found: Intensities, state: State) -> Intensities:
-        """Return fronts with kinks corrected for the parallel stress, if the scene asks for it."""
-        if not self._table.parallel_stress:
-            return found
-        behind, kink = self.rule.increment / 2, found.kink
-        acting = self._measured.applied_forces(state), self._measured.stresses
-        stress = parallel_stress(self._setup.model, state, found.tip, behind, *acting)
-        angle = kink_without_end_shear(
-            kink.angle, found.opening, found.sliding, stress, self.rule.increment
-        )
-        return replace(found, kink=replace(kink, angle=angle))
 
     def _extended(self, found: Intensities) -> tuple[tuple[Floats, ...], str]:
         """Polylines with new segments at all fronts ``found``, and what happened, in words."""
-        cut, cracks = self._setup.model.cut, self._setup.geometry.cracks
+        cut, cracks, piece = self._setup.model.cut, self._setup.geometry.cracks, self.rule.increment
         fronts = found.front, found.tip, found.kink.angle
-        lines = extended_lines(cut, cracks, self._fronts, *fronts, self.rule.increment)
+        lines = extended_lines(cut, cracks, self._fronts, *fronts, piece)
         names = [self._fronts.name[one] for one in found.front]
-        ends = self._fronts.points(lines)[found.front]
-        met = blocks_met(self._setup, found.tip, ends, self.rule.increment)
-        stopped = [
-            f"{name} ends where its block meets {block}"
-            for name, block in zip(names, met, strict=True)
-            if block
-        ]
+        met = blocks_met(self._setup, found.tip, self._fronts.points(lines)[found.front], piece)
+        pairs = zip(names, met, strict=True)
+        stopped = [f"{name} ends where its block meets {one}" for name, one in pairs if one]
         return lines, "; ".join([f"cracks grew at {', '.join(names)}", *stopped])
 
     @abstractmethod
@@ -252,8 +236,7 @@ class GrowingCracks(Effect):
         row |= self._faces.row(self._lines, cracks, state)
         row |= self._nucleation.history(state)
         row |= self._fronts.history(cracks, self._setup.origin, self._sofar.length)
-        row |= found.row(self._fronts.name)
-        return {key: float(value) for key, value in row.items()}
+        return {key: float(value) for key, value in (row | found.row(self._fronts.name)).items()}
 
     def carried(self) -> tuple[Any, ...]:
         """Growth of each front (m), its fracture energy (J), largest -K_I / |K| and crowding."""

@@ -130,10 +130,7 @@ class Plan(EnergyPlan):
 
     def matrix(self, state: State, base: csc_array) -> csc_array:
         """Return ``base`` with all effects' matrices added; the same sum of the same parts."""
-        added = (
-            self.timed(name, partial(effect.matrix, state)) for name, effect in self.named("matrix")
-        )
-        parts = [base, *added]
+        parts = [base, *self._matrices("matrix", state).values()]
         return self.total("matrix", parts, lambda: sum(parts[1:], start=base))
 
     def total(self, name: str, parts: list[csc_array], make: Callable[[], csc_array]) -> csc_array:
@@ -145,24 +142,21 @@ class Plan(EnergyPlan):
 
     def damping(self, state: State) -> dict[str, csc_array]:
         """Return the damping matrix of each effect that has one, by name."""
-        return {
-            name: self.timed(name, partial(effect.damping, state))
-            for name, effect in self.named("damping")
-        }
+        return self._matrices("damping", state)
 
     def added_mass(self, state: State) -> dict[str, csc_array]:
         """Return what joins the mass in the step that starts at ``state``, by effect."""
-        return {
-            name: self.timed(name, partial(effect.added_mass, state))
-            for name, effect in self.named("added_mass")
-        }
+        return self._matrices("added_mass", state)
+
+    def _matrices(self, hook: str, state: State) -> dict[str, csc_array]:
+        """Return the matrices of the effects that have a hook, by name."""
+        having = self.named(hook)
+        return {name: self.timed(name, partial(getattr(one, hook), state)) for name, one in having}
 
     def received_stress_energy(self, state: State) -> float:
         """Return the energy (J) at held edges of stresses that effects add."""
-        return sum(
-            effect.received_stress_energy(state)
-            for _, effect in self.named("received_stress_energy")
-        )
+        having = self.named("received_stress_energy")
+        return sum(effect.received_stress_energy(state) for _, effect in having)
 
     def added_stress(self, state: State) -> Floats | None:
         """Return the mean stress (E, 3) beyond that of the strain; None where nothing adds any."""
@@ -187,11 +181,8 @@ class Plan(EnergyPlan):
 
     def carried(self) -> dict[str, Any]:
         """Return what the effects carry from step to step, by their names."""
-        return {
-            name: effect.carried()
-            for name, effect in self.effects.items()
-            if defines(effect, "carried")
-        }
+        every = self.effects.items()
+        return {name: effect.carried() for name, effect in every if defines(effect, "carried")}
 
     def carry(self, carried: Mapping[str, Any]) -> None:
         """Hand back what `carried` returned."""

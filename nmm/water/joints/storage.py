@@ -149,10 +149,8 @@ class JointStorage(JointWater):
         return {**taken, "stored": self._end.stored, **largest}
 
     def carried(self) -> Any:
-        return tuple(
-            (one.time, one.head, one.volume, dict(one.taken), one.stored)
-            for one in (self._began, self._end)
-        )
+        ends = self._began, self._end
+        return tuple((one.time, one.head, one.volume, dict(one.taken), one.stored) for one in ends)
 
     def carry(self, carried: Any) -> None:
         self._began, self._end = (WaterStored(*one) for one in carried)
@@ -206,9 +204,8 @@ class JointStorage(JointWater):
         used = np.flatnonzero(np.abs(coupling[moved]).any(axis=0))
         some = np.where(moved[:, None], coupling[:, used], 0.0)
         answers = np.linalg.solve(matrix[np.ix_(free, free)], some[free])
-        pressed = coupling[np.ix_(wet, used)]
-        if share is not None:
-            pressed = share[wet, None] * pressed
+        counts = 1.0 if share is None else share[wet, None]
+        pressed = counts * coupling[np.ix_(wet, used)]
         return full_matrix(self.weight * (pressed.T @ answers[wet[free]]), used, self.n_unknowns)
 
     def _at_volumes_of(self, state: State, time: float) -> WaterStored:
@@ -224,8 +221,7 @@ class JointStorage(JointWater):
         """Return the water at a time with volumes (n,), by the joints at the start of the step."""
         began, given = self._began, self.given(time / self._second)
         step = step_between(began.time, time)
-        parts = joints, began.head, (began.volume, volume)
-        head, inflow = self._balance.heads(*parts, given, step)
+        head, inflow = self._balance.heads(joints, began.head, (began.volume, volume), given, step)
         taken = {
             one.name: began.taken.get(one.name, 0.0) + float(inflow[one.nodes].sum())
             for one in self.prescribed
@@ -241,11 +237,11 @@ class JointStorage(JointWater):
 
     def _coupling(self, state: State) -> Floats:
         """Force (n, n_unknowns) of a unit of pressure at each node (m2)."""
-        sites = self.sites
-        piece = sites.interface.first.piece
+        sites, interface = self.sites, self.sites.interface
+        piece = interface.first.piece
         assert piece is not None
-        unknowns, jump = sites.interface.rows(state)
-        push = -sites.interface.area[:, None] * sites.interface.normal(state)
+        unknowns, jump = interface.rows(state)
+        push = -interface.area[:, None] * interface.normal(state)
         along = np.einsum("mcl,mc->ml", jump, push)
         found = np.zeros((self.network.n, self.n_unknowns))
         for end, share in enumerate((1 - sites.share, sites.share)):  # both ends of a joint

@@ -8,9 +8,10 @@ import pytest
 from covers.scalar.space import ScalarSpace
 from nmm.assembly.places import on_edges
 from nmm.diffusion.course import FieldAt, FieldCourse
+from nmm.diffusion.given import VolumeSource
 from nmm.diffusion.holding import prescribed
 from nmm.diffusion.matrices import products, slopes
-from nmm.diffusion.problem import DiffusionProblem, VolumeSource, field_solver
+from nmm.diffusion.problem import DiffusionProblem, field_solver
 from nmm.effects.loading.load_factor import steadily
 from nmm.formulation import CoverTable, Solver
 from nmm.materials.elastic import Elastic

@@ -1,6 +1,7 @@
 """Intensity factors at the tips of fronts under everything that acts on the material about them."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -14,6 +15,7 @@ from nmm.fracture.growth.rule import GrowthRule
 from nmm.fracture.growth.tips.coarse_domains import coarse_domains
 from nmm.fracture.growth.tips.intensities import Intensities, tip_moduli
 from nmm.fracture.growth.tips.loaded_tips import loaded_tips
+from nmm.fracture.growth.tips.parallel_stress import kink_without_end_shear, parallel_stress
 from nmm.fracture.intensity_rows import IntensityRows
 from nmm.fracture.stress_intensity import check_domain
 from nmm.fracture.surroundings import domain_radius
@@ -73,6 +75,14 @@ class MeasuredTips:
     def applied_forces(self, state: State) -> AppliedForces:
         """Return the forces of other effects on crack faces and within bodies."""
         return joined(force(state) for force in self.forces)
+
+    def with_parallel_stress(self, found: Intensities, state: State) -> Intensities:
+        """Return fronts with kinks corrected for the stress along the crack."""
+        piece, kink = self._rule.increment, found.kink
+        acting = self.applied_forces(state), self.stresses
+        stress = parallel_stress(self._model, state, found.tip, piece / 2, *acting)
+        angle = kink_without_end_shear(kink.angle, found.opening, found.sliding, stress, piece)
+        return replace(found, kink=replace(kink, angle=angle))
 
     def _found(self, state: State) -> Intensities:
         kappa, stiff = self._moduli
