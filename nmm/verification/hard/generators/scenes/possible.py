@@ -5,7 +5,7 @@ from collections import Counter
 import numpy as np
 
 from nmm.verification.hard.cases.base import Document
-from nmm.verification.hard.oracles.whole import LAWS
+from nmm.verification.hard.oracles.seen_again import LAWS
 
 OF_BONDS = ("dissipation", "events")
 """Controls that follow bonds as they break."""

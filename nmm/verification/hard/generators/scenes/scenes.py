@@ -12,7 +12,8 @@ from nmm.verification.hard.generators.scenes.approximated import formulated
 from nmm.verification.hard.generators.scenes.possible import possible
 from nmm.verification.hard.generators.scenes.site import DENSITY, Site, merged
 from nmm.verification.hard.generators.scenes.staged import staged
-from nmm.verification.hard.oracles.whole import sound, ways
+from nmm.verification.hard.oracles.seen_again import ways
+from nmm.verification.hard.oracles.whole import sound
 
 KINDS = {
     **{"rest": 0.36, "time": 0.32, "flight": 0.06, "failure": 0.1},

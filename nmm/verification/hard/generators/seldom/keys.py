@@ -17,7 +17,8 @@ from nmm.verification.hard.generators.seldom import (
     shapes,
     waters,
 )
-from nmm.verification.hard.oracles.whole import sound, ways
+from nmm.verification.hard.oracles.seen_again import ways
+from nmm.verification.hard.oracles.whole import sound
 
 Added = Callable[[Document, Site], Document]
 """Returns tables that join a scene: a list named ``blocks!`` takes the place of ``blocks``.
