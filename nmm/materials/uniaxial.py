@@ -92,6 +92,19 @@ class Uniaxial:
         """Stored at forces (m,), in force times way."""
         return np.asarray(force**2 / (2 * self.stiffness) if self.stiffness else 0.0 * force)
 
+    def taken(self, flowed: Floats) -> Floats:
+        """Return what flow to accumulated ways (m,) takes for good, in force times way.
+
+        The area under the yield values, which forces follow exactly as they flow.
+        """
+        if self.elastic:
+            return np.zeros_like(flowed)
+        ways, values = self._curve
+        areas = np.append(0.0, np.cumsum(np.diff(ways) * (values[1:] + values[:-1]) / 2))
+        at = np.searchsorted(ways, flowed, side="right") - 1
+        mean = (values[at] + np.interp(flowed, ways, values)) / 2
+        return np.asarray(areas[at] + mean * (flowed - ways[at]))
+
     @cached_property
     def _curve(self) -> tuple[Floats, Floats]:
         return np.array(self.flowed), np.array(self.yields)

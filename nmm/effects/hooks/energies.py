@@ -25,6 +25,14 @@ class EnergyHooks:
         """Energy (J) that the effect dissipated in an accepted step."""
         raise NotImplementedError
 
+    def missed_loss(self, before: State, after: State) -> float:
+        """Energy (J) dissipated in a step of statics beyond `loss`, and done by loads beyond means.
+
+        `loss` counts the mean of the forces at both ends, as loads do their work. Where a force is
+        no line in between, in equilibrium with the loads, this is the area that both lack.
+        """
+        raise NotImplementedError
+
     def imbalance(self, state: State) -> float:
         """Error of the balance of its own conserved quantity, as a share of the turnover."""
         raise NotImplementedError

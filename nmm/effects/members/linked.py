@@ -20,6 +20,10 @@ from nmm.quantity import MemberSegments
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
+    from nmm.effects.members.fibres import Fibres
+
+    Pair = tuple[Floats, Floats]
+    Ends = tuple[Pair, Pair]
 
 
 # Relative difference below which forces differ by rounding alone, as at both ends of a bar.
@@ -136,13 +140,23 @@ class Linked(Effect):
 
     def loss(self, before: State, after: State) -> float:
         """See `Effect.loss`: by yielding and by sliding bond."""
+        return sum(fibres.loss(*ends) for fibres, ends in self._ends(before, after))
+
+    def missed_loss(self, before: State, after: State) -> float:
+        """See `Effect.missed_loss`: where flow begins within the step."""
+        if self.members.chains.elastic and not len(self.members.slip_owner):
+            return 0.0
+        return sum(fibres.missed_loss(*ends) for fibres, ends in self._ends(before, after))
+
+    def _ends(self, before: State, after: State) -> "list[tuple[Fibres, Ends]]":
+        """Return links and slips, each with forces and memories at both ends of a step."""
         chains = self.members.chains
         ends = [self._answers.of(one) for one in (before, after)]
         pairs = ((chains.axial, [e.axial for e in ends]), (chains.bond, [e.bond for e in ends]))
-        return sum(
-            fibres.loss((one.force, two.force), (one.memory, two.memory))
+        return [
+            (fibres, ((one.force, two.force), (one.memory, two.memory)))
             for fibres, (one, two) in pairs
-        )
+        ]
 
     def first_work(self, before: State, after: State) -> float:
         """See `Effect.first_work`: half of the work of the forces at the start."""

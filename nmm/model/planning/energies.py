@@ -36,6 +36,13 @@ class EnergyPlan(NamedEffects):
             for name, one in self.named("loss")
         }
 
+    def missed_losses(self, before: State, after: State) -> dict[str, float]:
+        """Return what each effect took in a step of statics beyond `losses` (J)."""
+        return {
+            name: self.timed(name, partial(one.missed_loss, before, after))
+            for name, one in self.named("missed_loss")
+        }
+
     def first_work(self, before: State, after: State) -> float:
         """Return the work (J) that `work` lacks in the first step of statics."""
         return sum(effect.first_work(before, after) for effect in self.having("first_work"))

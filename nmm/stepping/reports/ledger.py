@@ -45,16 +45,17 @@ class Ledger(EnergyTotals):
         earlier = self.energies if self.steps else untouched(plan, model, before)
         loss = 0.0 if attempt.solved is None else attempt.solved.loss
         dissipated = model.dissipated(before, after)
+        missed = plan.missed_losses(before, after) if attempt.booked is None else {}
         found = with_parts(
             self,
-            work=self.worked(plan, before, attempt),
+            work=self.worked(plan, before, attempt) + sum(missed.values()),
             friction_loss=self.friction_loss + loss,
             friction_first=self.friction_first if self.steps else loss,
             friction_gift=self.friction_gift + max(-loss, 0.0),
             material_loss=self.material_loss + dissipated,
             material_gift=self.material_gift + max(-dissipated, 0.0),
             effect_loss={
-                name: self.effect_loss.get(name, 0.0) + lost
+                name: self.effect_loss.get(name, 0.0) + lost + missed.get(name, 0.0)
                 for name, lost in plan.losses(before, after).items()
             },
             energies=stored(plan, model, stands),

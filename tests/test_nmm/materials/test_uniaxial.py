@@ -168,3 +168,18 @@ class Leaping(PlasticBond):
 def test_a_bond_law_that_breaks_a_promise_is_told_which(law, told):
     with pytest.raises(AssertionError, match=told):
         check_bond_law(law)
+
+
+def test_what_flow_takes_is_the_area_under_the_yield_values():
+    """Against small steps of the law itself, by trapezia: hardening, softening and beyond."""
+    law = Uniaxial(1e3, (0.0, 0.2, 0.5), (10.0, 14.0, 2.0))
+    way = np.linspace(0, 0.8, 20_001)
+    plastic = flowed = force = np.zeros(1)
+    lost, taken = [0.0], [0.0]
+    for u in way[1:]:
+        found = law.update(1e3 * (u - plastic), plastic, flowed)
+        lost.append(lost[-1] + float((force + found.force)[0] / 2 * (found.plastic - plastic)[0]))
+        force, plastic, flowed = found.force, found.plastic, found.flowed
+        taken.append(float(law.taken(flowed)[0]))
+    np.testing.assert_allclose(taken, lost, atol=1e-5 * lost[-1])
+    assert lost[-1] == pytest.approx(12 * 0.2 + 8 * 0.3 + 2 * (flowed[0] - 0.5), rel=1e-4)

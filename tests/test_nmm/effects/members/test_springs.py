@@ -235,14 +235,19 @@ increment = 0.05
 """
 
 
-def test_a_spring_yields_and_its_plastic_work_is_booked():
-    found = nmm.run(nmm.parse_scene(YIELDING))
+@pytest.mark.parametrize("increment", [0.05, 0.3, 1.0])
+def test_a_spring_yields_and_its_plastic_work_is_booked(increment):
+    """In one increment the mean of the forces at its ends would be 18 J in place of 30."""
+    text = YIELDING.replace("increment = 0.05", f"increment = {increment}")
+    found = nmm.run(nmm.parse_scene(text))
     row = found.history
     assert row["springs:s:force"][-1] == pytest.approx(5e3, rel=1e-9)
     # 4 mm to the yield force; 6 mm beyond at 5 kN.
     # The stone gives way by 0.1 um.
     assert row["loss:springs"][-1] == pytest.approx(5e3 * 6e-3, rel=2e-5)
     assert row["energy:springs"][-1] == pytest.approx(5e3**2 / 2e6, rel=1e-9)
+    # What the prestress of 1 kN stores is there from the start.
+    assert row["external_work"][-1] == pytest.approx(12.5 - 0.5 + 30, rel=2e-5)
     assert abs(found.summary.energy_balance) < 1e-5
 
 
