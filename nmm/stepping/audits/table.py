@@ -247,6 +247,13 @@ THRESHOLDS: dict[str, Threshold] = {
         None,
         "matter with `softening_energy`",
     ),
+    "ellipticity": Threshold(
+        "least determinant of an acoustic tensor where matter flows, below zero, over the elastic "
+        "one in the mean over all angles",
+        1e-6,
+        None,
+        "matter that yields, without `softening_energy`",
+    ),
 }
 
 

@@ -43,6 +43,8 @@ class Recorder:
         Whether what is solved may change.
     zero
         What displacements count from.
+    before
+        Where the last step began; None before the first one.
     """
 
     stepper: Stepper
@@ -53,6 +55,7 @@ class Recorder:
     totals: Totals = field(default_factory=Totals)
     staged: bool = False
     zero: ZeroDisplacement = field(default_factory=ZeroDisplacement)
+    before: State | None = None
 
     @property
     def steps(self) -> int:
@@ -108,6 +111,7 @@ class Recorder:
             lengths=totals.lengths and totals.lengths.seen(after.time - before.time),
         )
         self.stepper.budget.taken += 1
+        self.before = before
 
     def _row(
         self, before: State, attempt: Attempt, contacts: "ContactPoints | None"
