@@ -86,7 +86,12 @@ class LawsAtPoints:
         strain = np.asarray(np.linalg.solve(self.elastic, stress[:, :, None]), dtype=float)[:, :, 0]
         found = {**history, INITIAL: strain}
         for number, law in enumerate(self.laws):  # a handful of laws
-            at = np.flatnonzero((self.law == number) & ~np.isnan(across))
+            own = self.law == number
+            if "stress_zz" in law.variables(self.plane):
+                elastic = stress[own] @ law.across_share(self.plane)
+                found["stress_zz"] = found["stress_zz"].copy()
+                found["stress_zz"][own, 0] = elastic
+            at = np.flatnonzero(own & ~np.isnan(across))
             for name, value in law.under(strain[at], stress[at], across[at]).items():
                 found[name] = found[name].copy()
                 found[name][at, : value.shape[1]] = value
@@ -165,19 +170,28 @@ class LawsAtPoints:
 
     def energy_density(self, history: History) -> Floats:
         """Return what points store (Q,) in J/m3, all that of their initial stress with it."""
-        initial, whole = history.get(INITIAL), history[STRESS]
-        if initial is not None:
-            whole = whole + self._initial(initial)
+        whole = self.whole(history)
         density = np.zeros(len(whole))
         for law, at in self._points:
             density[at] = law.energy(whole[at], self._own(law, history, at), self.plane)
         return density
 
+    def across(self, history: History) -> Floats:
+        """Return the stress across the plane (Q,) of points, initial and thermal ones too (Pa)."""
+        whole, found = self.whole(history), np.empty(len(self.law))
+        for law, at in self._points:
+            found[at] = law.stress_across(whole[at], self._own(law, history, at), self.plane)
+        return found
+
+    def whole(self, history: History) -> Floats:
+        """Return the stress (Q, 3) of points, the initial one with it (Pa)."""
+        if INITIAL not in history:
+            return history[STRESS]
+        return np.asarray(history[STRESS] + self._initial(history[INITIAL]))
+
     def pressing(self, history: History) -> Floats:
         """Return the sum (Q,) of the normal stresses, that across too (Pa)."""
-        whole = history[STRESS]
-        if INITIAL in history:
-            whole = whole + self._initial(history[INITIAL])
+        whole = self.whole(history)
         across = history.get("stress_zz", np.zeros((len(whole), 1)))
         return np.asarray(whole[:, 0] + whole[:, 1] + across[:, 0])
 

@@ -98,6 +98,21 @@ class Matter(LawsAtPoints):
         """
         return self.points.means(history[STRESS])
 
+    def mean_across(self, deformation: Floats, history: History) -> tuple[Ints, Floats]:
+        """Return the elements (k,) that have points and their mean stress across the plane (k,).
+
+        All that their laws know of, the initial stress with it (Pa).
+        """
+        elements, means = self.points.means(self.across(history)[:, None])
+        return elements, means[:, 0]
+
+    def across_near(
+        self, deformation: Floats, history: History, elements: Ints, points: Floats
+    ) -> Floats:
+        """Return the stress across (m,) of the nearest point; no number where laws are linear."""
+        at = nearest(self.points.rule, elements, points)
+        return np.where(at < 0, np.nan, self.across(history)[at])
+
     def force(self, deformation: Floats, stress: Floats) -> Floats:
         """Return the internal force (n,) of unknowns (n,) and of the stress (Q, 3) of points."""
         return product(self.rest, deformation) + self._summed.of(stress)

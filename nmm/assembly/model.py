@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Bools, Floats, Ints
 from integration.sparse import csc_array
 from nmm.assembly.elastic_solid import ElasticSolid
 from nmm.assembly.elements import element_matrices
@@ -162,6 +162,36 @@ class Model(ElasticSolid):
         if self.matter is not None:
             elements, means = self.matter.mean_stress(state.deformation, state.history)
             found[elements] = means
+        return found
+
+    @cached_property
+    def across_share(self) -> Floats:
+        """Elastic stress across the plane (E, 3) of unit stresses in it."""
+        if not self.laws or self.law is None:
+            raise FormulationError(
+                "stress across the plane: a model without laws: expected laws that tell it: give "
+                "Model(laws=..., law=...)"
+            )
+        each = np.array([law.across_share(self.plane) for law in self.laws])
+        return np.asarray(each[self.law])
+
+    def stress_across(self, state: "State", stress: Floats) -> Floats:
+        """Mean stress across the plane (E,) of the elements, at their own ``stress`` (E, 3) (Pa).
+
+        Of laws that are not linear it is all that they know of, their initial stress with it.
+        """
+        found = np.asarray(np.einsum("ei,ei->e", self.across_share, stress), dtype=float)
+        if self.matter is not None:
+            elements, means = self.matter.mean_across(state.deformation, state.history)
+            found[elements] = means
+        return found
+
+    @cached_property
+    def remembers(self) -> Bools:
+        """(E,) whether elements have points that remember all stress but that of pores."""
+        found = np.zeros(len(self.manifold.elements), dtype=bool)
+        if isinstance(self.matter, Matter):
+            found[self.matter.points.rule.owner] = True
         return found
 
     def strain_energy(self, state: "State") -> float:

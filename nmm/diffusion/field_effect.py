@@ -135,6 +135,20 @@ class FieldEffect(Effect):
             return np.zeros((len(self._conductivity), 3))
         return self.stress.mean(self.acting(state.time))
 
+    def mean_stress_across(self, state: State) -> Floats:
+        """See `Effect.mean_stress_across`; in finite strain over areas as they are."""
+        if self.stress is None:
+            return np.zeros(len(self._conductivity))
+        found = self.stress.mean_across(self.acting(state.time))
+        if self._turned is None:
+            return found
+        return found / self.stress.model.finite_matter.mean_volume(state.deformation)
+
+    def stress_across_at(self, elements: Ints, points: Floats, time: float) -> Floats:
+        if self.stress is None:
+            return np.zeros(len(elements))
+        return self.stress.across_at(self.acting(time), elements, points)
+
     def flux(self, state: State) -> Floats:
         """Mean flux (E, 2) of the elements in global axes."""
         own = self._own_flux.of(self.here(state.time).unknowns)

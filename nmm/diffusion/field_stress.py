@@ -27,11 +27,14 @@ class FieldStress:
         Functions of the field, and what it acts on.
     stress
         (E, 3) stress that a unit of the field takes from the material (Pa).
+    across
+        (E,) of it across the plane; None where it is none (Pa).
     """
 
     space: ScalarSpace
     model: Model
     stress: Floats
+    across: Floats | None = None
     _kept: dict[int, tuple[Floats, Ints, csr_array]] = field(default_factory=dict, repr=False)
 
     @cached_property
@@ -61,6 +64,16 @@ class FieldStress:
         return KeptOfArray(
             lambda unknowns: np.asarray(-(self._means @ unknowns)[:, None] * self.stress)
         )
+
+    def mean_across(self, unknowns: Floats) -> Floats:
+        """Stress across the plane (E,) that it adds, mean of the elements (Pa)."""
+        across = np.zeros(len(self.stress)) if self.across is None else self.across
+        return np.asarray(-(self._means @ unknowns) * across)
+
+    def across_at(self, unknowns: Floats, elements: Ints, points: Floats) -> Floats:
+        """Stress across the plane (m,) that it adds at reference points (Pa)."""
+        across = np.zeros(len(self.stress)) if self.across is None else self.across
+        return np.asarray(-(self._rows(elements, points) @ unknowns) * across[elements])
 
     def at(self, unknowns: Floats, elements: Ints, points: Floats) -> Floats:
         """Stress (m, 3) in body axes that it adds at reference points (Pa)."""

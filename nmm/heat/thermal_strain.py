@@ -47,7 +47,11 @@ class ThermalStrain(FieldStress):
             points, plane = csr_array(rows), plane.copy()
             plane[rule.owner] = 0.0
         stress = np.einsum("eij,ej->ei", model.elasticity, plane)
-        return cls(space, model, stress, expansion=plane, points=points)
+        across = np.einsum("ei,ei->e", model.across_share, stress)
+        if model.plane == "strain":  # what is held across, too
+            stiff = np.array([law.modulus_across for law in model.laws])[model.law]
+            across += np.where(model.remembers, 0.0, stiff * expansion)
+        return cls(space, model, stress, across, expansion=plane, points=points)
 
     def swelling(self, unknowns: Floats) -> Floats | None:
         """Isotropic strain (Q,) of material points; see `Effect.swelling`."""

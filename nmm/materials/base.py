@@ -207,10 +207,42 @@ class Law(ABC):
             share = float((along - 2 * across) / (along - across))
         return np.array([share, share, 0.0])
 
+    def across_share(self, plane: str) -> Floats:
+        """Return the elastic stress across the plane (1) of unit stresses (3,) in it.
+
+        ``-S_3j / S_33`` of the compliance ``S`` in plane strain, ``nu`` if isotropic: the share by
+        which restraint raises `free_strain`, whatever the axes.
+        """
+        if plane == "stress":
+            return np.zeros(3)
+        return self.free_strain("strain") - self.free_strain("stress")
+
+    def stress_across(self, stress: Floats, history: History, plane: str) -> Floats:
+        """Return the stress across the plane (m,) at a stress (m, 3) with internal variables (Pa).
+
+        It is the variable ``stress_zz`` of laws that keep one. By default it is the elastic one,
+        less that of the thermal strain that is held across.
+        """
+        if "stress_zz" in history:
+            return history["stress_zz"][:, 0]
+        found = stress @ self.across_share(plane)
+        if plane == "strain" and "swelling" in history:
+            found = found - self.modulus_across * history["swelling"][:, 0]
+        return np.asarray(found)
+
+    def potential_across(self, strain: Floats, plane: str) -> Floats:
+        """Return the second Piola-Kirchhoff stress across (m,) at Green strains (m, 3) (Pa)."""
+        return np.asarray(self.potential(strain, plane).stress @ self.across_share(plane))
+
     @property
     @abstractmethod
     def modulus(self) -> float:
         """Young's modulus (Pa): the unit in which penalties are given."""
+
+    @property
+    def modulus_across(self) -> float:
+        """Young's modulus across the plane (Pa), by default that in it."""
+        return self.modulus
 
 
 MATERIAL_LAWS = Registry[Callable[..., Law]](

@@ -54,6 +54,15 @@ class NeoHookean(Elastic):
         found += 2 * (mu - lame * log)[:, None, None] * _products(inverse)
         return FiniteResponse(energy, stress, found)
 
+    def potential_across(self, strain: Floats, plane: str) -> Floats:
+        """See `Law.potential_across`: ``lambda ln J``, as nothing is stretched across."""
+        if plane == "stress":
+            return np.zeros(len(strain))
+        e, nu = self.young_modulus, self.poisson_ratio
+        exx, eyy, twice = strain.T
+        area = 2 * (exx + eyy) + 4 * exx * eyy - twice**2
+        return np.asarray(e * nu / ((1 + nu) * (1 - 2 * nu)) * np.log1p(area) / 2)
+
 
 def _across(log: Floats, ratio: float) -> Floats:
     """Stretch squared less one (m,) across a sheet without stress there.

@@ -68,6 +68,12 @@ class Orthotropic(Law):
         """The larger of Young's moduli in the plane (Pa)."""
         return max(self.young_modulus, self.young_modulus_2)
 
+    @property
+    def modulus_across(self) -> float:
+        """Young's modulus of axis 3 (Pa)."""
+        third = self.young_modulus_3
+        return self.young_modulus_2 if third is None else third
+
     def pore_share(self, plane: str) -> Floats:
         """See `Law.pore_share`: reduced by the contraction due to free expansion along axis 3."""
         own = np.array([1.0, 1.0, 0.0])
@@ -86,12 +92,11 @@ class Orthotropic(Law):
 
     def _compliance(self) -> Floats:
         """Return strains (3,) along the axes from stresses along them (1/Pa)."""
-        third = self.young_modulus_2 if self.young_modulus_3 is None else self.young_modulus_3
         across = [
             self.poisson_ratio if given is None else given
             for given in (self.poisson_ratio_13, self.poisson_ratio_23)
         ]
-        found = np.diag([1 / self.young_modulus, 1 / self.young_modulus_2, 1 / third])
+        found = np.diag([1 / self.young_modulus, 1 / self.young_modulus_2, 1 / self.modulus_across])
         found[0, 1] = found[1, 0] = -self.poisson_ratio / self.young_modulus
         found[0, 2] = found[2, 0] = -across[0] / self.young_modulus
         found[1, 2] = found[2, 1] = -across[1] / self.young_modulus_2

@@ -1,4 +1,4 @@
-"""Measures of the stress in the plane; what acts across the plane is left out."""
+"""Measures of the stress: von Mises of all of it, others of what acts in the plane."""
 
 from collections.abc import Mapping
 
@@ -11,10 +11,11 @@ from nmm.quantity import Quantity
 
 
 class VonMises(Output):
-    """Von Mises stress of each element (Pa), exact in plane stress."""
+    """Von Mises stress of each element (Pa), the stress across the plane with it."""
 
     def fields(self, view: View) -> Mapping[str, Quantity]:
-        return {"von_mises": Quantity("elements", von_mises(view.stress), "Pa")}
+        values = von_mises(view.stress, view.stress_across)
+        return {"von_mises": Quantity("elements", values, "Pa")}
 
 
 class PrincipalStress(Output):
@@ -32,10 +33,15 @@ class MeanStress(Output):
         return {"mean_stress": Quantity("elements", view.stress[:, :2].mean(axis=1), "Pa")}
 
 
-def von_mises(stress: Floats) -> Floats:
-    """Return ``sqrt(xx^2 - xx yy + yy^2 + 3 xy^2)`` (E,) of stresses (E, 3)."""
+def von_mises(stress: Floats, across: Floats | None = None) -> Floats:
+    """Return the von Mises stress (E,) of stresses (E, 3) and what acts ``across`` the plane (E,).
+
+    ``sqrt(((xx - yy)^2 + (yy - zz)^2 + (zz - xx)^2) / 2 + 3 xy^2)``; None across is plane stress.
+    """
     xx, yy, xy = stress.T
-    return np.asarray(np.sqrt(np.maximum(xx**2 - xx * yy + yy**2 + 3 * xy**2, 0.0)))
+    zz = np.zeros_like(xx) if across is None else across
+    differences = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
+    return np.asarray(np.sqrt(differences / 2 + 3 * xy**2))
 
 
 def principal(stress: Floats) -> Floats:

@@ -44,15 +44,19 @@ class Raster:
 
 @dataclass(frozen=True)
 class SampledFields:
-    """Displacement (m, 2) in m and Cauchy stress (m, 3) in Pa, nan where no element is."""
+    """Displacement (m, 2) in m and Cauchy stress (m, 3) in Pa, nan where no element is.
+
+    ``across`` (m,) is the stress across the plane (Pa), 0 in plane stress.
+    """
 
     displacement: Floats
     stress: Floats
+    across: Floats
 
     @property
     def mises(self) -> Floats:
-        """Von Mises stress (m,) of the components in the plane."""
-        return von_mises(self.stress)
+        """Von Mises stress (m,), the stress across the plane with it (Pa)."""
+        return von_mises(self.stress, self.across)
 
 
 def raster(polygons: Polygons, cells: int = 12_000) -> Raster:
@@ -98,9 +102,10 @@ def fields(run: "Run", points: Floats) -> SampledFields:
             "leave it out"
         )
     displacement, stress = np.full((len(points), 2), np.nan), np.full((len(points), 3), np.nan)
+    across = np.full(len(points), np.nan)
     displacement[there] = _displacement(run, elements[there], points[there])
-    stress[there] = _stress(run, elements[there], points[there])
-    return SampledFields(displacement, stress)
+    stress[there], across[there] = _stress(run, elements[there], points[there])
+    return SampledFields(displacement, stress, across)
 
 
 def _displacement(run: "Run", elements: Ints, points: Floats) -> Floats:
@@ -110,9 +115,11 @@ def _displacement(run: "Run", elements: Ints, points: Floats) -> Floats:
     return material.place(run.state.frames, run.state.deformation) - points
 
 
-def _stress(run: "Run", elements: Ints, points: Floats) -> Floats:
+def _stress(run: "Run", elements: Ints, points: Floats) -> tuple[Floats, Floats]:
+    """Stress (m, 3) at points, and that across the plane (m,)."""
     from integration.rules import PointRule
     from nmm.assembly.errors import stresses
+    from nmm.model.planning.across import stress_across_at
     from nmm.model.planning.pressures import patch_pressures
 
     model, plan = run.stepper.model, run.stepper.plan
@@ -123,8 +130,9 @@ def _stress(run: "Run", elements: Ints, points: Floats) -> Floats:
         state = run.state
         near = model.matter.stress_near(state.deformation, state.history, elements, points)
         stress = np.where(np.isnan(near), stress, near)
+    across = stress_across_at(plan, model, run.state, elements, points, stress)
     for tells in plan.stresses:  # a handful of effects
         stress = stress + tells(elements, points, run.state.time)
     turn = run.state.frames.rotation[run.manifold.element_body[elements]]
     tensor = turn @ stress[:, [[0, 2], [2, 1]]] @ np.swapaxes(turn, 1, 2)
-    return np.asarray(np.stack([tensor[:, 0, 0], tensor[:, 1, 1], tensor[:, 0, 1]], axis=1))
+    return np.stack([tensor[:, 0, 0], tensor[:, 1, 1], tensor[:, 0, 1]], axis=1), across

@@ -82,7 +82,8 @@ class PoreWater(FieldEffect):
             if filling is not None:
                 initial = fitted(setup, space, everything, partial(filling.at_rest, level))
         ground = fitted(setup, space, everything, lambda points: points[:, 1])
-        stress = FieldStress(space, setup.model, _pore_stress(setup))
+        pores = _pore_stress(setup)
+        stress = FieldStress(space, setup.model, pores, _pore_stress_across(setup, pores))
         course = course_of(setup, problem, initial, second)
         conductivity = conductivities(setup, "hydraulic_conductivity")
         weight = table.unit_weight
@@ -120,6 +121,12 @@ class PoreWater(FieldEffect):
             found["filled"] = Quantity("elements", filled, "1")
         return found
 
+    def mean_stress_across(self, state: State) -> Floats:
+        """See `Effect.mean_stress_across`: that of the pressure, alike in all directions."""
+        if self._turned is not None:
+            return self._turned.mean(state)[:, 0]
+        return super().mean_stress_across(state)
+
     def flux(self, state: State) -> Floats:
         """Mean seepage velocity (E, 2) in global axes, zero where unsaturated (m/s)."""
         found = super().flux(state)
@@ -154,6 +161,11 @@ def _pore_stress(setup: Setup) -> Floats:
             raise SceneError(Fault(place, value, "matter that is linear", remedy))
     shares = np.array([law.pore_share(model.plane) for law in model.laws])
     return np.asarray(biot[:, None] * shares[model.law])
+
+
+def _pore_stress_across(setup: Setup, pores: Floats) -> Floats | None:
+    """Return what a unit of pore pressure subtracts across the plane (E,): as much as in it."""
+    return None if setup.model.plane == "stress" else pores[:, 0]
 
 
 def _finite(setup: Setup) -> bool:

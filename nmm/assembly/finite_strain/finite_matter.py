@@ -155,6 +155,33 @@ class FiniteMatter:
         _, area = self.points.means(volumes(gradient)[:, None])
         return elements, stress / area
 
+    def mean_across(self, deformation: Floats, history: History) -> tuple[Ints, Floats]:
+        """Return the elements (k,) and their mean Cauchy stress across the plane (k,) (Pa)."""
+        gradient = self.points.strain(deformation)
+        elements, stress = self.points.means(self._across(gradient)[:, None])
+        _, area = self.points.means(volumes(gradient)[:, None])
+        return elements, (stress / area)[:, 0]
+
+    def across_near(
+        self, deformation: Floats, history: History, elements: Ints, points: Floats
+    ) -> Floats:
+        """Return the Cauchy stress across (m,) of the nearest point in elements (m,) (Pa)."""
+        gradient = self.points.strain(deformation)
+        at = nearest(self.points.rule, elements, points)
+        return np.asarray(self._across(gradient) / volumes(gradient))[at]
+
+    def mean_volume(self, deformation: Floats) -> Floats:
+        """Return the areas (E,) of the elements over what they were."""
+        return self.points.means(volumes(self.points.strain(deformation))[:, None])[1][:, 0]
+
+    def _across(self, gradient: Floats) -> Floats:
+        """Stress across (Q,) over areas as they were, where nothing is stretched across (Pa)."""
+        strain, found = green(gradient), np.empty(len(gradient))
+        for number, law in enumerate(self.laws):  # a handful of laws
+            at = np.flatnonzero(self.law == number)
+            found[at] = law.potential_across(strain[at], self.plane)
+        return found
+
     def stress_near(
         self, deformation: Floats, history: History, elements: Ints, points: Floats
     ) -> Floats:

@@ -24,6 +24,17 @@ class ExchangeHooks:
         """Mean stress (E, 3) of the elements in body axes (Pa), to add to the elastic stress."""
         raise NotImplementedError
 
+    def mean_stress_across(self, state: State) -> Floats:
+        """Mean stress across the plane (E,) that comes with `mean_stress` (Pa).
+
+        By default that of elastic matter at that stress. Asked for in plane strain alone.
+        """
+        raise NotImplementedError
+
+    def stress_across_at(self, elements: Ints, points: Floats, time: float) -> Floats:
+        """Stress across the plane (m,) that comes with `stress_at` (Pa)."""
+        raise NotImplementedError
+
     def stress_at(self, elements: Ints, points: Floats, time: float) -> Floats:
         """The same stress (m, 3) at reference points (m, 2) of elements (m,), at a time (s)."""
         raise NotImplementedError

@@ -77,6 +77,16 @@ class ChangedMaterials(Effect):
     def mean_stress(self, state: State) -> Floats:
         return self.kept.mean(self._model)
 
+    def mean_stress_across(self, state: State) -> Floats:
+        """See `Effect.mean_stress_across`; laws that are not linear know of it themselves."""
+        found = np.einsum("ei,ei->e", self._model.across_share, self.mean_stress(state))
+        return np.where(self._model.remembers, 0.0, found)
+
+    def stress_across_at(self, elements: Ints, points: Floats, time: float) -> Floats:
+        share, added = self._model.across_share[elements], self.stress_at(elements, points, time)
+        found = np.einsum("mi,mi->m", share, added)
+        return np.where(self._model.remembers[elements], 0.0, found)
+
     def stress_at(self, elements: Ints, points: Floats, time: float) -> Floats:
         """See `Effect.stress_at`: the stress of the nearest material point."""
         return self.kept.at(elements, points)

@@ -4,6 +4,8 @@ from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
+import numpy as np
+
 from integration.arrays import Floats, Ints
 from nmm.assembly.matter import Matter
 from nmm.assembly.model import Model
@@ -90,6 +92,25 @@ class InitialStress(Effect):
 
     def stress_at(self, elements: Ints, points: Floats, time: float) -> Floats:
         return self.given.at(self._model, elements, points)[:, :3]
+
+    def mean_stress_across(self, state: State) -> Floats:
+        """See `Effect.mean_stress_across`; laws that are not linear know of it themselves."""
+        found = self._across(self.given.mean, self._model.across_share)
+        found = np.where(self._model.remembers, 0.0, found)
+        if self._turned is None:
+            return found
+        return np.asarray(found / self._model.finite_matter.mean_volume(state.deformation))
+
+    def stress_across_at(self, elements: Ints, points: Floats, time: float) -> Floats:
+        given, share = self.given.at(self._model, elements, points), self._model.across_share
+        found = self._across(given, share[elements])
+        return np.where(self._model.remembers[elements], 0.0, found)
+
+    @staticmethod
+    def _across(given: Floats, share: Floats) -> Floats:
+        """Stress across (m,) of stresses (m, 4); the elastic one where it is not given."""
+        elastic = np.einsum("mi,mi->m", share, given[:, :3])
+        return np.where(np.isnan(given[:, 3]), elastic, given[:, 3])
 
     def energy(self, state: State) -> float:
         """Energy (J) that the stress adds to the elastic one, ``1/2 eps : D eps``."""

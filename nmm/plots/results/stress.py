@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 NAMES = {
-    "mises": "von Mises stress in the plane",
+    "mises": "von Mises stress",
     "xx": "stress xx",
     "yy": "stress yy",
     "xy": "shear stress xy",
@@ -125,7 +125,8 @@ def _chosen(frame: Frame, topology: Topology, component: str) -> tuple[Floats, s
             scalars |= {f"{name}:{p}": (one.values[:, i], one.unit) for i, p in enumerate(parts)}
     if component in scalars:
         return scalars[component]
-    return measure(frame.stress, component, [*scalars]), "Pa"
+    across = scalars.get("stress_zz", (None, ""))[0]
+    return measure(frame.stress, component, [*scalars], across), "Pa"
 
 
 def scale_end(values: Floats, areas: Floats) -> tuple[float, float]:
@@ -146,11 +147,12 @@ def scale_end(values: Floats, areas: Floats) -> tuple[float, float]:
     return end, float(areas[sizes > end].sum() / areas.sum())
 
 
-def measure(stresses: Floats, component: str, besides: Sequence[str] = ()) -> Floats:
-    """(E,) one number of stresses (E, 3): xx, yy, xy.
+def measure(
+    stresses: Floats, component: str, besides: Sequence[str] = (), across: Floats | None = None
+) -> Floats:
+    """(E,) one number of stresses (E, 3): xx, yy, xy, and of what acts ``across`` the plane (E,).
 
-    The von Mises stress is sqrt(xx^2 - xx yy + yy^2 + 3 xy^2), exact in plane stress; in plane
-    strain it leaves the stress across the plane out. ``besides`` are names that would do too.
+    ``besides`` are names that would do too.
 
     Raises
     ------
@@ -160,7 +162,7 @@ def measure(stresses: Floats, component: str, besides: Sequence[str] = ()) -> Fl
     xx, yy, xy = stresses.T
     major, minor = principal(stresses).T
     known: dict[str, Floats] = {
-        "mises": von_mises(stresses),
+        "mises": von_mises(stresses, across),
         "xx": xx,
         "yy": yy,
         "xy": xy,

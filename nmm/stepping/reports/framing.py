@@ -7,7 +7,9 @@ import numpy as np
 from integration.arrays import Floats, columns
 from nmm.assembly.state import State
 from nmm.effects.view import View
+from nmm.model.planning.across import stress_across
 from nmm.model.planning.pressures import patch_pressures
+from nmm.quantity import Quantity
 from nmm.results.frame import Frame
 from nmm.stepping.reports.declared import DeclaredOutputs
 from nmm.stepping.reports.zero import ZeroDisplacement
@@ -19,7 +21,13 @@ if TYPE_CHECKING:
 
 def viewed(stepper: Stepper, state: State, contacts: "ContactPoints | None") -> View:
     """Return a state with what can be read from it; stress is computed when it is requested."""
-    return View(stepper.model, state, contacts, lambda state: _stress(stepper, state))
+    return View(
+        stepper.model,
+        state,
+        contacts,
+        lambda state: _stress(stepper, state),
+        lambda state: _across(stepper, state),
+    )
 
 
 def framed(
@@ -44,7 +52,7 @@ def framed(
         velocity=stepper.velocity(state),
         stress=view.stress,
         **_contact_arrays(stepper, view),
-        fields=declared.fields(stepper.plan, view),
+        fields=_across_field(view) | declared.fields(stepper.plan, view),
     )
 
 
@@ -56,6 +64,19 @@ def _stress(stepper: Stepper, state: State) -> Floats:
     if added is not None:
         stress = stress + added
     return _turned(stress, state.frames.angle[model.manifold.element_body])
+
+
+def _across(stepper: Stepper, state: State) -> Floats | None:
+    """Return the mean stress across the plane (E,) of the elements, None in plane stress (Pa)."""
+    model, plan = stepper.model, stepper.plan
+    stress = model.stress(state, patch_pressures(plan, model, state))
+    return stress_across(plan, model, state, stress)
+
+
+def _across_field(view: View) -> dict[str, Quantity]:
+    """Return the stress across the plane as a quantity of a frame; none in plane stress."""
+    across = view.stress_across
+    return {} if across is None else {"stress_zz": Quantity("elements", across, "Pa")}
 
 
 def _turned(stress: Floats, angle: Floats) -> Floats:
