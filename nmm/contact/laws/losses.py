@@ -84,12 +84,18 @@ class ContactLosses:
         )
 
     def beyond_means(self) -> float:
-        """Energy (J) that softening took beyond what mean forces of both ends say."""
+        """Energy (J) of a step of statics beyond what mean forces of both ends say.
+
+        That is of softening, and of friction that reaches its limit within the step: nothing slides
+        before.
+        """
         beyond = (
             area @ (dissipated - law.dissipated_by_means(passage))
             for law, passage, area, dissipated in self._softened
         )
-        return float(sum(beyond))
+        means = (self.start.shear_force + self.answer.shear_force) / 2 * self.sliding
+        late = ~self.softening & ~self._limits[1]
+        return float(sum(beyond)) + float(summed((self._rubbed - means)[late]))
 
     @MadeOnce
     def _softened(self) -> list[tuple[InterfaceLaw, Passage, Floats, Floats]]:

@@ -49,7 +49,7 @@ class ContactSolution:
         in the same step; None where none did.
     between
         Work (J) that loads do within a step of a path beyond that of their mean at both ends: what
-        bonds take that pass their peak between them.
+        bonds take that pass their peak between them, and friction that reaches its limit there.
     missed
         (m,) error of linearised spring forces at the gaps that were found (N); None where springs
         are linear.

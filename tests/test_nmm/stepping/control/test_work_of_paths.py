@@ -1,5 +1,7 @@
 """What loads do along a path and what its bonds take hang on no step."""
 
+import math
+
 import pytest
 
 import nmm
@@ -45,3 +47,33 @@ def test_work_is_the_area_under_the_curve_whatever_the_steps(increment):
     assert history["external_work"][-1] == pytest.approx(area, rel=1e-4)
     taken = area - 1e5 * left * 3e-3 / 2
     assert history["friction_loss"][-1] == pytest.approx(taken, rel=1e-4)
+
+
+ROPE, WAY, FRICTION = 1e3, 0.02, 1000 * 9.81 * math.tan(math.radians(20))
+"""Stiffness of a spring that keeps a block from drifting (N/m), its way (m), its friction (N)."""
+
+
+@pytest.mark.parametrize("increment", [WAY, WAY / 4])
+def test_friction_takes_its_force_times_the_way_from_the_first_step_on(increment):
+    """The load is friction as soon as the block slides, and half of it the first step's mean."""
+    tables = [
+        text.material("rock", 1e9, 0.2, 1000.0),
+        text.interface("joint", 20.0),
+        text.box("slab", (-1, -1), (3, 1)),
+        text.box("block", (0, 0), (1, 1)),
+        text.fixed_block("slab"),
+        '[[loads]]\nname = "push"\nkind = "point"\npoint = [0, 0.1]\nblock = "block"\n'
+        "force = [1000, 0]\n",
+        '[[springs]]\nname = "rope"\npoints = [[1, 0.1], [3, 0.1]]\n'
+        f'blocks = ["block", "ground"]\nstiffness = {ROPE}\n',
+        text.monitor("middle", (0.5, 0.5), "block"),
+        '[loading]\nscaled = ["push"]\nuntil = "failure"\n[loading.control]\n'
+        'type = "displacement"\nmonitors = ["middle"]\ndirection = [1, 0]\n'
+        f"increment = {increment}\nend = {WAY}\n",
+    ]
+    run = nmm.run(parse_scene(text.scene('plane = "stress"\n[gravity]\n[contact]\n', tables)))
+    work = run.history["external_work"][-1] - run.history["external_work"][0]
+    # The block is in balance under its weight at first. It strains, and slides less, by 1e-5 m.
+    assert run.history["friction_loss"][-1] == pytest.approx(FRICTION * WAY, rel=1e-3)
+    assert work == pytest.approx(FRICTION * WAY + ROPE * WAY**2 / 2, rel=1e-3)
+    assert abs(run.summary.energy_balance) < 1e-4
