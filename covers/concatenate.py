@@ -1,4 +1,4 @@
-"""Concatenation of records of arrays; fields that hold numbers of things are offset."""
+"""Records of arrays: concatenated, with numbers of things offset, and some rows of them."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass, replace
@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from integration.arrays import Ints
+from integration.arrays import Bools, Ints
 from integration.polygons import Polygons
 
 Record = TypeVar("Record")
@@ -46,6 +46,18 @@ def concatenate(parts: Sequence[Record], offsets: Mapping[str, Ints], **given: A
             values = [getattr(part, item.name) for part in parts]
             made[item.name] = _joined(values, item.metadata.get("of"), offsets)
     return replace(parts[0], **made)  # type: ignore[type-var]
+
+
+def some_of(record: Record, index: Ints | Bools) -> Record:
+    """Return rows of a record: those of its arrays and nested records; all else is as it was."""
+    made: dict[str, Any] = {}
+    for item in fields(record):  # type: ignore[arg-type]
+        value = getattr(record, item.name)
+        if is_dataclass(value):
+            made[item.name] = some_of(value, index)
+        elif isinstance(value, np.ndarray):
+            made[item.name] = value[index]
+    return replace(record, **made)  # type: ignore[type-var]
 
 
 def starts(counts: Sequence[int]) -> Ints:

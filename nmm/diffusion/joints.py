@@ -6,6 +6,7 @@ from typing import Literal
 
 import numpy as np
 
+from covers.concatenate import some_of
 from covers.cutting.cut_boundary import CutBoundary
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Bools, Floats, Ints
@@ -109,22 +110,9 @@ def _joined(
     finite = np.array([0.0 if value in ("perfect", None) else float(value) for value in values])
     one = perfect[piece]
     if one.any():
-        both = [taken(side, one) for side in sides]
+        both = [some_of(side, one) for side in sides]
         yield tied(joining.space, joining.model, joining.conductivity, both, name)
     if not one.all():
-        both = [taken(side, ~one) for side in sides]
+        both = [some_of(side, ~one) for side in sides]
         area = both[0].weight * joining.model.thickness
         yield Edge(name, jump(joining.space, both), area, finite[piece][~one])
-
-
-def taken(place: Place, chosen: Bools) -> Place:
-    """Return some of the points of a place."""
-    index = np.flatnonzero(chosen)
-    return Place(
-        place.points.take(index),
-        place.elements[index],
-        place.weight[index],
-        place.position[index],
-        None if place.normal is None else place.normal[index],
-        None if place.piece is None else place.piece[index],
-    )

@@ -4,6 +4,7 @@ The matrix is scaled before it is decomposed, solutions are refined with the mat
 judged by their residual; a matrix without inverse is decomposed again with a shift.
 """
 
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Protocol, Self
 
@@ -111,18 +112,17 @@ class Factor:
             )
         scale = solver.scaling(matrix)
         unit = scaled(matrix, scale, max(solver.shift, PIVOT))
-        try:
+        with suppress(RankDeficientError):
             return cls(solver, matrix, scale, solver.decompose(unit))
-        except RankDeficientError:
-            try:
-                return cls._shifted(solver, matrix, scale)
-            except RankDeficientError as fault:
-                raise SolveError(
-                    f"linear system of {len(scale)} unknowns: {fault}, though shifted by "
-                    f"{solver.deflated().shift:.0e}: expected a supported system: add supports, "
-                    "contacts or inertia",
-                    singular=True,
-                ) from fault
+        try:
+            return cls._shifted(solver, matrix, scale)
+        except RankDeficientError as fault:
+            raise SolveError(
+                f"linear system of {len(scale)} unknowns: {fault}, though shifted by "
+                f"{solver.deflated().shift:.0e}: expected a supported system: add supports, "
+                "contacts or inertia",
+                singular=True,
+            ) from fault
 
     def solve(self, rhs: Floats, among: Floats | None = None) -> Floats:
         """Solve ``matrix @ x = rhs`` with refinement.

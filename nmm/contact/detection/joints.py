@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 import shapely
 from numpy.polynomial.legendre import leggauss
 
+from covers.concatenate import some_of
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import JOINT
@@ -49,7 +50,7 @@ class Joints:
 
     def take(self, index: Ints | Bools) -> Joints:
         """Return some of the joints."""
-        return Joints(*(getattr(self, item.name)[index] for item in fields(self)))
+        return some_of(self, index)
 
     @property
     def length(self) -> Floats:

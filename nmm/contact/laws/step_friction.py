@@ -8,14 +8,12 @@ the limits of the start are then those of the bodies in sum.
 """
 
 from dataclasses import dataclass, replace
-from typing import Any, Self
+from typing import Self
 
 import numpy as np
 
+from covers.concatenate import concatenate, some_of
 from integration.arrays import Bools, Floats, Ints
-
-OF_A_CONTACT = ("key", "bodies", "limit", "from_start", "force", "slid")
-"""What there is of each contact."""
 
 
 @dataclass(frozen=True)
@@ -59,8 +57,8 @@ class StepFriction:
             limit, from_start = self._in_sum(then)
         apart = ~np.isin(self.bodies, then.bodies[then.force > 0])
         lasts = np.isin(then.bodies, self.bodies[apart], invert=True)
-        given = replace(then, limit=limit, from_start=from_start)._at(lasts)
-        return given._beside(self._at(apart))
+        given = replace(then, limit=limit, from_start=from_start)
+        return concatenate([some_of(given, lasts), some_of(self, apart)], {})
 
     def _in_sum(self, then: Self) -> tuple[Floats, Bools]:
         """Limits (m,) at the contacts of ``then``, shared as its forces are, and whether acting."""
@@ -73,16 +71,3 @@ class StepFriction:
         late = np.bincount(mine, self.limit * ~self.from_start, len(pairs))
         share = np.divide(limit, end, out=np.zeros(len(pairs)), where=end > 0)
         return share[its] * then.force, (late < limit / 2)[its] | (limit == 0)[its]
-
-    def _at(self, chosen: Bools) -> Self:
-        given: dict[str, Any] = {name: getattr(self, name)[chosen] for name in OF_A_CONTACT}
-        return replace(self, **given)
-
-    def _beside(self, other: Self) -> Self:
-        if not len(other.key):
-            return self
-        both: dict[str, Any] = {
-            name: np.concatenate([getattr(self, name), getattr(other, name)])
-            for name in OF_A_CONTACT
-        }
-        return replace(self, **both)

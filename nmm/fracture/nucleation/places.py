@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
+from covers.concatenate import some_of
 from covers.cutting.cut_cells import CutCells
 from integration.arrays import Bools, Floats, Ints
 from integration.plane_vectors import counterclockwise
@@ -77,8 +78,7 @@ class NucleationPlaces:
 
     def take(self, rows: Ints | Bools) -> "NucleationPlaces":
         """Return the selected places."""
-        point, inward = self.point[rows], self.inward[rows]
-        return NucleationPlaces(point, inward, self.element[rows], self.notched[rows])
+        return some_of(self, rows)
 
     @property
     def inside(self) -> Bools:

@@ -206,8 +206,7 @@ class StepSolver:
         """Solve a step of statics along a path (`nmm.contact.following`)."""
         assert self._touching is not None
         with self._clock.phase("path"):
-            still = Instant.of(state)
-            equations = self._assembly.of(state, still, None, rule, anchored=False)
+            equations = self._standing(state, rule)
             try:
                 return self._touching.along(equations, path, reach)
             except SolveError as fault:
@@ -217,9 +216,11 @@ class StepSolver:
         """Return the energy (n,) by unknown (J) that bonds lose on a path from a state."""
         assert self._touching is not None
         with self._clock.phase("path"):
-            still = Instant.of(state)
-            equations = self._assembly.of(state, still, None, rule, anchored=False)
-            return self._touching.losing(equations, reach)
+            return self._touching.losing(self._standing(state, rule), reach)
+
+    def _standing(self, state: State, rule: Integrator) -> Equations:
+        """Return the equations of a step of statics under the load of the state itself."""
+        return self._assembly.of(state, Instant.of(state), None, rule, anchored=False)
 
     def _solved(
         self,

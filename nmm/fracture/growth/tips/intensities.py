@@ -1,10 +1,11 @@
 """Intensity factors at the tips of growing cracks, and the moduli of the material about them."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
+from covers.concatenate import some_of
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.fracture.criteria.base import Kink
@@ -37,10 +38,7 @@ class Intensities:
 
     def take(self, rows: Ints) -> "Intensities":
         """Return the selected rows."""
-        kink = Kink(self.kink.angle[rows], self.kink.equivalent[rows])
-        one = (getattr(self, item.name) for item in fields(self) if item.name != "kink")
-        front, tip, opening, sliding, stiff, share = (values[rows] for values in one)
-        return Intensities(front, tip, opening, sliding, stiff, kink, share)
+        return some_of(self, rows)
 
     @property
     def rate(self) -> Floats:

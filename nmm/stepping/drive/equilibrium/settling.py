@@ -74,6 +74,11 @@ def settle(
     of them, and what the last one made of it is kept.
     """
     contacts: ContactPoints | None = None
+
+    def failed(sentence: str, mechanism: bool) -> SettledStep:
+        lost = replace(total, converged=False, sentence=sentence)
+        return SettledStep(lost, contacts, mechanism, carried)
+
     least = rounding(stepper)
     total = attempt = stepper.attempt(state, end, None, breaking, broken)
     carried = stepper.carried_way(state, end)
@@ -81,8 +86,7 @@ def settle(
     while count < CORRECTIONS or (count < PATIENCE and not steady):
         far = not stepper.small and total.motion > too_far(stepper, carried)
         if far or not attempt.converged:
-            mechanism = far and not stepper.kinematics.finite
-            return SettledStep(replace(total, converged=False), contacts, mechanism, carried)
+            return failed(total.sentence, far and not stepper.kinematics.finite)
         _, contacts = stepper.accept(attempt)
         if not stepper.anchored and stepper.small:
             return SettledStep(total, contacts)
@@ -94,12 +98,9 @@ def settle(
         steady = steady + 1 if attempt.motion > SHRINKS * last.motion else 0
         total, count = joined(total, attempt, whole), count + 1
         if stepper.anchored and steady >= STEADY and way > COLLAPSE * stepper.size:
-            sentence = f"it moved by {way:.3g} m in {count} corrections that did not shrink"
-            lost = replace(total, converged=False, sentence=sentence)
-            return SettledStep(lost, contacts, True, carried)
-    sentence = f"the moved place is not in equilibrium after {count} corrections"
-    lost = replace(total, converged=False, sentence=sentence)
-    return SettledStep(lost, contacts, False, carried)
+            said = f"it moved by {way:.3g} m in {count} corrections that did not shrink"
+            return failed(said, mechanism=True)
+    return failed(f"the moved place is not in equilibrium after {count} corrections", False)
 
 
 def _remembering(moved: State, start: State) -> State:
