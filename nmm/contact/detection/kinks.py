@@ -5,8 +5,9 @@ import numpy as np
 from integration.arrays import Bools, Floats, Ints
 from integration.plane_vectors import cross, dot
 from integration.ragged import within
+from nmm.contact.detection.contacts import Contacts
 from nmm.contact.detection.measures import SINE
-from nmm.contact.detection.surface import Surface
+from nmm.contact.detection.surface import Surface, pair_key
 from nmm.contact.detection.tolerances import ANGLE, FLUSH
 
 
@@ -44,6 +45,25 @@ def standing(surface: Surface, vertex: Ints, edge: Ints) -> tuple[Ints, Ints]:
     ending = ending[~_sided(surface, vertex[ending], -surface.direction[edge[ending]])]
     beginning = beginning[~_sided(surface, vertex[beginning], surface.direction[edge[beginning]])]
     return _pairs_of(vertex, edge, (ending, beginning))
+
+
+def from_below(surface: Surface, found: Contacts, stands: tuple[Ints, Ints]) -> Bools:
+    """Return which contacts (m,) are of a kink's corner before a side of what stands there.
+
+    Where two corners meet either bounds the other's way. What stands on an edge of the kink may
+    slide along it, which the corner that the edge ends at would prevent.
+    """
+    vertex, edge = stands
+    corner = _corner(surface, vertex, edge)
+    before, after = (pair_key(surface, corner, side) for side in (vertex, surface.previous[vertex]))
+    return np.isin(found.key, np.concatenate([before, after]))
+
+
+def _corner(surface: Surface, vertex: Ints, edge: Ints) -> Ints:
+    """Return the vertices (k,) at the ends of the edges that are nearer to the corners."""
+    start, end = (surface.start[vertex] - at[edge] for at in (surface.start, surface.end))
+    nearer = (start * start).sum(axis=1) <= (end * end).sum(axis=1)
+    return np.where(nearer, edge, surface.next[edge])
 
 
 def _pairs_of(vertex: Ints, edge: Ints, rows: tuple[Ints, Ints]) -> tuple[Ints, Ints]:

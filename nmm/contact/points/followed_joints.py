@@ -7,8 +7,10 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from integration.contraction import contract
+from integration.plane_vectors import cross
 from nmm.assembly.model import Model
 from nmm.contact.detection.joints import Joints, find_joints, joint_ends, joint_points
+from nmm.contact.detection.measures import SINE
 from nmm.contact.detection.surface import Surface, pair_key
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.cracks.bonded_cracks import BondedCracks, refuse_unbonded
@@ -73,7 +75,18 @@ def follow_joints(
     )
     pairs = pair_key(surface, vertex, edge)
     none = found.take(np.zeros(0, dtype=np.int64))
-    return JointBook(found, points.joint, pairs, joint, lost=none, left=none)
+    kink = _in_kink(surface, joints.take(joint), edge)
+    return JointBook(found, points.joint, pairs, joint, kink, lost=none, left=none)
+
+
+def _in_kink(surface: Surface, ending: Joints, edge: Ints) -> Bools:
+    """Return which edges (k,) turn towards the joint that ends beside them, from its own edge."""
+    direction, kink = surface.direction, np.zeros(len(edge), dtype=bool)
+    for own in (ending.edge_a, ending.edge_b):
+        after, before = edge == surface.next[own], edge == surface.previous[own]
+        turn = cross(direction[own], direction[edge])
+        kink |= (after & (turn < -SINE)) | (before & (turn > SINE))
+    return kink
 
 
 def _followed(

@@ -31,6 +31,9 @@ class JointBook:
         too. Where a part has come apart the rest lets bodies turn about it, until corners meet.
     pair_joint
         (k,) joint of each such pair.
+    pair_kink
+        (k,) whether it is of a corner and the other edge of a kink that the joint ends in, which
+        bounds the corner's way unless bonds hold it.
     lost
         Points of joints that came apart; the search finds what touches there.
     left
@@ -42,6 +45,7 @@ class JointBook:
     joint: Ints
     pairs: Ints
     pair_joint: Ints
+    pair_kink: Bools
     lost: ContactPoints
     left: ContactPoints
 
@@ -52,19 +56,26 @@ class JointBook:
     def hides(self, found: Contacts, n: int) -> Bools:
         """Which contacts found among ``n`` edges followed joints carry already.
 
-        They are those at the ends of joints, and those of corners that bonds hold on both sides:
-        what such a corner may enter only beside its neighbours, as a kink, it does not.
+        They are those at the ends of joints, but for the other edges of kinks beside joints that
+        do not hold, and those of corners that bonds hold on both sides: what such a corner may
+        enter only beside its neighbours, as a kink, it does not.
         """
         if not len(self.pairs):
             return np.zeros(len(found), dtype=bool)
-        corner, hidden = found.kind != FACE, np.isin(found.key, self.pairs)
+        carried = (
+            self.pairs[self._whole() | ~self.pair_kink] if self.pair_kink.any() else self.pairs
+        )
+        corner, hidden = found.kind != FACE, np.isin(found.key, carried)
         hidden[corner] |= self._bonded_corners(n)[found.vertex[corner]]
         return hidden
 
     def _bonded_corners(self, n: int) -> Bools:
         """Which vertices (n,) are ends of two joints that hold at all of their points."""
-        whole = ~np.isin(self.pair_joint, self.joint[~self.points.bonded])
-        return np.bincount(self.pairs[whole] // n, minlength=n) > 1
+        return np.bincount(self.pairs[self._whole()] // n, minlength=n) > 1
+
+    def _whole(self) -> Bools:
+        """Which pairs (k,) are of joints that hold at all of their points."""
+        return ~np.isin(self.pair_joint, self.joint[~self.points.bonded])
 
     def edges(self, n: int) -> Ints:
         """Pairs of edges that followed joints carry, ``a * n + b`` with ``a < b``, sorted."""
@@ -131,6 +142,7 @@ class JointBook:
             joint=self.joint[~gone],
             pairs=self.pairs[whole],
             pair_joint=self.pair_joint[whole],
+            pair_kink=self.pair_kink[whole],
             lost=concatenate([before, given_up(left)]),
             left=left,
         )

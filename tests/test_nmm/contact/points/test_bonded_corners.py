@@ -58,3 +58,10 @@ def test_without_bonds_both_corners_in_a_kink_meet_both_of_its_edges() -> None:
     for edge in ([0.0, 1.0], [diagonal, diagonal]):
         # Blocks turn by some 1e-4.
         assert (np.abs(normals - edge).max(axis=1) < 1e-3).sum() == 2
+
+
+def test_corners_on_joints_that_do_not_hold_meet_the_other_edge_of_their_kink() -> None:
+    """A cohesion of 100 Pa must not take from two blocks what the kink bears of them."""
+    normals, diagonal = in_the_kink('cohesion = "100 Pa"'), np.sqrt(0.5)
+    for edge in ([0.0, 1.0], [diagonal, diagonal]):
+        assert (np.abs(normals - edge).max(axis=1) < 1e-3).sum() == 1
