@@ -51,7 +51,24 @@ class SingularFunctions:
         pairs = [self._mode(mode, radius, angle) for mode in range(self.number)]
         return np.stack([u for u, _ in pairs], 1), np.stack([g for _, g in pairs], 1)
 
+    def values(self, radius: Floats, angle: Floats) -> Floats:
+        """Return the values (m, n, 2) alone, in the axes of the notch."""
+        modes = range(self.number)
+        found = [self._scale(one, radius) * self._angular(one, angle)[0] for one in modes]
+        return np.stack(found, 1)
+
     def _mode(self, mode: int, radius: Floats, angle: Floats) -> tuple[Floats, Floats]:
+        value, slope = self._angular(mode, angle)
+        scale = self._scale(mode, radius)
+        gradient = _cartesian(self.exponent[mode] * value, slope, angle)
+        return scale * value, (scale / radius[:, None])[:, :, None] * gradient
+
+    def _scale(self, mode: int, radius: Floats) -> Floats:
+        """Factor (m, 1) of the angular functions of a mode."""
+        return ((radius / self.length) ** self.exponent[mode])[:, None]
+
+    def _angular(self, mode: int, angle: Floats) -> tuple[Floats, Floats]:
+        """Functions (m, 2) of the angle, and their derivatives by it."""
         power, q = self.exponent[mode], self.ratio[mode]
         lead = np.array([self.kappa - q * (power + 1), self.kappa + q * (power + 1)])
         other = np.array([-power, power])
@@ -61,11 +78,7 @@ class SingularFunctions:
             _wave(power, power * angle - shift, power, lead),
             _wave(power, (power - 2) * angle - shift, power - 2, other),
         ]
-        value = parts[0][0] + parts[1][0]
-        slope = parts[0][1] + parts[1][1]
-        scale = (radius / self.length) ** power
-        gradient = _cartesian(power * value, slope, angle)
-        return scale[:, None] * value, (scale / radius)[:, None, None] * gradient
+        return parts[0][0] + parts[1][0], parts[0][1] + parts[1][1]
 
 
 def _wave(power: float, phase: Floats, rate: float, factor: Floats) -> tuple[Floats, Floats]:

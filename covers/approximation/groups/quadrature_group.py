@@ -43,6 +43,10 @@ class Fields(ABC):
     def local_values(self, index: Ints, points: Floats) -> Floats:
         """Values (m, S) of the functions without their weights."""
 
+    def values(self, index: Ints, points: Floats) -> Floats:
+        """Values (m, S) at points (m, 2) in elements ``index`` (m,)."""
+        return self.evaluate(index, points)[0]
+
     @abstractmethod
     def evaluate(self, index: Ints, points: Floats) -> tuple[Floats, Floats]:
         """Values (m, S) and gradients (m, S, 2) at points (m, 2) in elements ``index`` (m,)."""
@@ -83,7 +87,7 @@ class QuadratureGroup(ElementGroup):
         return self.fields.cover
 
     def values(self, index: Ints, points: Floats) -> Floats:
-        return self.evaluate(index, points)[0]
+        return self.fields.values(index, points)
 
     def gradients(self, index: Ints, points: Floats) -> Floats:
         return self.evaluate(index, points)[1]

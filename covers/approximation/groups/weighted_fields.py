@@ -62,8 +62,16 @@ class WeightedFields(Fields):
 
     def local_values(self, index: Ints, points: Floats) -> Floats:
         parts = [
-            self.local(item, self.active[index, slot], points)[0]
+            self._polynomials(item, self.active[index, slot], points)
             for slot, item in enumerate(self.functions)
+        ]
+        return np.concatenate(parts, axis=1)
+
+    def values(self, index: Ints, points: Floats) -> Floats:
+        weight = self.weight_values(index, points)
+        parts = [
+            weight[:, slot, None] * self._polynomials(item, self.active[index, slot], points)
+            for slot, item in enumerate(self.functions)  # the covers of one element
         ]
         return np.concatenate(parts, axis=1)
 
@@ -80,16 +88,31 @@ class WeightedFields(Fields):
     def weights(self, index: Ints, points: Floats) -> tuple[Floats, Floats]:
         """Weights (m, k) and gradients (m, k, 2) of the active covers."""
         weight, slope = self.weighted.evaluate(self.cells[index], points)
-        slots = self.slots[index]
-        row = np.arange(len(index))[:, None]
-        return weight[row, slots], slope[row, slots]
+        active = self._at(index)
+        return weight[active], slope[active]
+
+    def weight_values(self, index: Ints, points: Floats) -> Floats:
+        """Weights (m, k) of the active covers alone."""
+        return np.asarray(self.weighted.weights(self.cells[index], points)[self._at(index)])
+
+    def _at(self, index: Ints) -> tuple[Ints, Ints]:
+        """Rows and columns of the active covers among the patches of cells."""
+        return np.arange(len(index))[:, None], self.slots[index]
 
     def local(self, item: LocalFunctions, cover: Ints, points: Floats) -> tuple[Floats, Floats]:
         """Values (m, S) and gradients (m, S, 2) of the local functions of covers (m,)."""
-        matrix = self.covers.matrix[cover]
-        xi = np.einsum("mij,mj->mi", matrix, points - self.covers.centre[cover])
-        f = evaluate(xi, item.degree)
+        xi = self._coordinates(cover, points)
         lower = evaluate(xi, max(item.degree - 1, 0))
         unit = np.eye(count(item.degree))
         by_xi = [lower @ differentiate(unit, item.degree, axis).T for axis in (0, 1)]
-        return f, np.einsum("ims,mij->msj", np.stack(by_xi), matrix)
+        slopes = np.einsum("ims,mij->msj", np.stack(by_xi), self.covers.matrix[cover])
+        return evaluate(xi, item.degree), slopes
+
+    def _polynomials(self, item: LocalFunctions, cover: Ints, points: Floats) -> Floats:
+        """Values (m, S) of the local functions of covers (m,)."""
+        return evaluate(self._coordinates(cover, points), item.degree)
+
+    def _coordinates(self, cover: Ints, points: Floats) -> Floats:
+        """Coordinates (m, 2) of points (m, 2) about the centres of covers (m,)."""
+        offset = points - self.covers.centre[cover]
+        return np.asarray(np.einsum("mij,mj->mi", self.covers.matrix[cover], offset))

@@ -50,13 +50,27 @@ def singular_fields(item: Enrichment, points: Floats, bearing: Floats) -> tuple[
     ``bearing`` (m,) selects the branch of the angle: the one within pi of it (rad, from the
     bisector). The two faces of a crack lie on different branches.
     """
-    d = np.asarray(item.direction, dtype=float)
-    turn = np.array([[d[0], -d[1]], [d[1], d[0]]])
-    radius, angle = polar(item, points)
-    value, gradient = item.functions.evaluate(np.maximum(radius, 1e-30), near(angle, bearing))
+    turn = _turn(item)
+    value, gradient = item.functions.evaluate(*_branch(item, points, bearing))
     return value @ turn.T, turn @ gradient @ turn.T
 
 
+def singular_values(item: Enrichment, points: Floats, bearing: Floats) -> Floats:
+    """Return the values (m, n, 2) of `singular_fields` alone."""
+    return np.asarray(item.functions.values(*_branch(item, points, bearing)) @ _turn(item).T)
+
+
+def _branch(item: Enrichment, points: Floats, bearing: Floats) -> tuple[Floats, Floats]:
+    """Distance (m,) from the singular point (m), nowhere zero, and angle (m,) on a branch (rad)."""
+    radius, angle = polar(item, points)
+    return np.maximum(radius, 1e-30), near(angle, bearing)
+
+
 def _local(item: Enrichment, points: Floats) -> Floats:
+    return np.asarray((points - item.point) @ _turn(item))
+
+
+def _turn(item: Enrichment) -> Floats:
+    """Matrix (2, 2) from the axes of the bisector to global ones."""
     d = np.asarray(item.direction, dtype=float)
-    return np.asarray((points - item.point) @ np.array([[d[0], -d[1]], [d[1], d[0]]]))
+    return np.array([[d[0], -d[1]], [d[1], d[0]]])
