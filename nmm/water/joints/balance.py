@@ -82,10 +82,10 @@ class JointBalance:
         volume, n = self.volumes(aperture), self.network.n
         store = self.squeeze * np.maximum(volume, TIGHT * volume.max())
         a, b = self.network.ends.T
-        flow, found = self.network.conductance(aperture) * self.thickness, np.zeros((n, n))
-        for row, column, sign in ((a, a, 1.0), (b, b, 1.0), (a, b, -1.0), (b, a, -1.0)):
-            np.add.at(found, (row, column), sign * flow)
-        return OpenJoints(aperture, volume, np.asarray(store), found)
+        flow = self.network.conductance(aperture) * self.thickness
+        places = np.concatenate([n * a + a, n * b + b, n * a + b, n * b + a])
+        found = np.bincount(places, np.concatenate([flow, flow, -flow, -flow]), n * n)
+        return OpenJoints(aperture, volume, np.asarray(store), found.reshape(n, n))
 
     def volumes(self, aperture: Floats) -> Floats:
         """Volumes (n,) at the nodes of joints with apertures (j, 2), weighted as pressures (m3)."""
@@ -144,12 +144,13 @@ class JointBalance:
         (first, last), head = volumes, begun.copy()
         head[given[0]], free = given[1], self.free(given[0])
         before = self.beyond(joints, begun, first) - (last - first)
+        flow = step * joints.flow
 
         def lacking(trial: Floats) -> Floats:
-            return np.asarray(
-                self.beyond(joints, trial, last) + step * joints.flow @ trial - before
-            )
+            return np.asarray(self.beyond(joints, trial, last) + flow @ trial - before)
 
+        if not free.any():
+            return head, lacking(head)
         for _ in range(PASSES):
             matrix = self.matrix(joints, head, last, step)[np.ix_(free, free)]
             way = np.zeros(len(head))

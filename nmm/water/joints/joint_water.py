@@ -11,7 +11,7 @@ from typing import Self
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.assembly.kept import KeptOfInstants, KeptOfPlaces
+from nmm.assembly.kept import Kept, KeptOfInstants, KeptOfPlaces
 from nmm.assembly.state import State
 from nmm.constraints.ties.shared_edges import shared_edges
 from nmm.diffusion.edges import Factor
@@ -65,6 +65,8 @@ class JointWater(Effect):
         self._initial, self._residual = aperture
         self.weight, self.n_unknowns = weight, n_unknowns
         self._openings = KeptOfPlaces(sites.opening)
+        self._courses_rest = all(one.factor is steadily for one in prescribed)
+        self._given = Kept(self._given_at, lambda time: 0.0 if self._courses_rest else time)
         self._heads = KeptOfInstants(self._steady_heads)
         self._face_forces = KeptOfInstants(self._forces_of_pressure)
 
@@ -95,7 +97,7 @@ class JointWater(Effect):
 
     @property
     def steady(self) -> bool:
-        return all(one.factor is steadily for one in self.prescribed)
+        return self._courses_rest
 
     def apertures(self, state: State) -> Floats:
         """Apertures (j, 2) at the ends of the joints (m)."""
@@ -153,6 +155,9 @@ class JointWater(Effect):
 
     def given(self, time: float) -> tuple[Ints, Floats]:
         """Nodes (k,) with a prescribed head, and the heads (k,) (m); later tables count."""
+        return self._given.of(time)
+
+    def _given_at(self, time: float) -> tuple[Ints, Floats]:
         heads = np.full(self.network.n, np.nan)
         for one in self.prescribed:  # a handful
             heads[one.nodes] = one.factor(time) * one.head

@@ -13,6 +13,7 @@ step is solved by Newton's method.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
@@ -52,6 +53,20 @@ class WaterStored:
     stored: float = 0.0
 
 
+@dataclass(frozen=True)
+class SolvedWater:
+    """The water found last, and what it was found from."""
+
+    joints: OpenJoints
+    began: WaterStored
+    water: WaterStored
+
+    def serves(self, joints: OpenJoints, began: WaterStored, volume: Floats, time: float) -> bool:
+        """Whether it is the water of such a step: joints that move no further keep theirs."""
+        same = self.joints is joints and self.began is began and self.water.time == time
+        return same and np.array_equal(self.water.volume, volume)
+
+
 class JointStorage(JointWater):
     """Transient flow in the joints of a scene."""
 
@@ -61,6 +76,7 @@ class JointStorage(JointWater):
     _balance: JointBalance
     _open: KeptOfPlaces[OpenJoints]
     _start: OpenJoints | None = None
+    _last: SolvedWater | None = None
     _second, _time = 1.0, 0.0
     _water: Kept[[State, float], WaterStored]
 
@@ -155,6 +171,7 @@ class JointStorage(JointWater):
     def carry(self, carried: Any) -> None:
         self._began, self._end = (WaterStored(*one) for one in carried)
         self._water.forget()
+        self._last = None
 
     def apertures(self, state: State) -> Floats:
         return self._open.of(state).aperture
@@ -163,6 +180,7 @@ class JointStorage(JointWater):
         super().forget()
         self._open.forget()
         self._water.forget()
+        self._last = None
 
     def follow(self, change: Change) -> "JointStorage":
         """Return the water on the new model, with the heads of nodes that it shares."""
@@ -183,6 +201,8 @@ class JointStorage(JointWater):
 
     def _push(self, state: State, pressure: Floats) -> Floats:
         """Force (n_unknowns,) of pressures (n,) on the faces of joints."""
+        if not pressure.any():
+            return np.zeros(self.n_unknowns)
         forces = self.sites.forces(state, pressure[self.sites.nodes])
         return self.sites.interface.spread(state, forces)
 
@@ -195,7 +215,7 @@ class JointStorage(JointWater):
         free = self._balance.free(self.given(end.time / self._second)[0])
         wet = free & self._balance.pressed(end.head)
         if not wet.any():
-            return csc_array((self.n_unknowns, self.n_unknowns))
+            return self._nothing
         # Neither from heads nor for them does it matter how much an empty node could hold.
         moved = wet if share is None else free & ~self._balance.dry(end.head, end.volume)
         step = step_between(self._began.time, end.time)
@@ -208,6 +228,11 @@ class JointStorage(JointWater):
         pressed = counts * coupling[np.ix_(wet, used)]
         return full_matrix(self.weight * (pressed.T @ answers[wet[free]]), used, self.n_unknowns)
 
+    @cached_property
+    def _nothing(self) -> csc_array:
+        """The matrix without entries, one for all steps: sums with it are kept."""
+        return csc_array((self.n_unknowns, self.n_unknowns))
+
     def _at_volumes_of(self, state: State, time: float) -> WaterStored:
         """Return the water at a time with the volumes of a state."""
         now = self._open.of(state)
@@ -219,7 +244,16 @@ class JointStorage(JointWater):
 
     def _solved(self, joints: OpenJoints, volume: Floats, time: float) -> WaterStored:
         """Return the water at a time with volumes (n,), by the joints at the start of the step."""
-        began, given = self._began, self.given(time / self._second)
+        began, last = self._began, self._last
+        if last is None or not last.serves(joints, began, volume, time):
+            last = SolvedWater(joints, began, self._balanced(joints, began, volume, time))
+            self._last = last
+        return last.water
+
+    def _balanced(
+        self, joints: OpenJoints, began: WaterStored, volume: Floats, time: float
+    ) -> WaterStored:
+        given = self.given(time / self._second)
         step = step_between(began.time, time)
         head, inflow = self._balance.heads(joints, began.head, (began.volume, volume), given, step)
         taken = {
