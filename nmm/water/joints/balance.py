@@ -84,7 +84,7 @@ class JointBalance:
         a, b = self.network.ends.T
         flow = self.network.conductance(aperture) * self.thickness
         places = np.concatenate([n * a + a, n * b + b, n * a + b, n * b + a])
-        found = np.bincount(places, np.concatenate([flow, flow, -flow, -flow]), n * n)
+        found = np.bincount(places, np.concatenate([flow, flow, -flow, -flow]), n * n).astype(float)
         return OpenJoints(aperture, volume, np.asarray(store), found.reshape(n, n))
 
     def volumes(self, aperture: Floats) -> Floats:

@@ -64,8 +64,7 @@ class EffectForces:
             if weight < 1 and not effect.steady:
                 begun = effect.force(self._state, Instant.of(self._state))
                 force = weight * force + (1 - weight) * begun
-        matrix = effect.matrix(self._state) if defines(effect, "matrix") else csc_array((n, n))
-        return force, matrix
+        return force, effect.matrix(self._state) if defines(effect, "matrix") else _nothing(n)
 
     def at(self, increment: Floats, after: State | None) -> tuple[EffectPart, Mapping[str, Floats]]:
         """Return the forces at an increment (n,) of the step, and what effects then remember.
@@ -107,16 +106,24 @@ class EffectForces:
             return {}
         state = self._state
         if after is None:
-            moved = self._kinematics.move(self._model, state, increment)
+            moves = increment.any()  # else places stay those that effects know
+            moved = self._kinematics.move(self._model, state, increment) if moves else state
             after = replace(moved, time=self._end.time, load_factor=self._end.load_factor)
         return {name: self._plan.step_force(name, state, after, self._span) for name in self._lines}
 
     def _beyond(self, pulls: Mapping[str, StepForce]) -> csc_array:
-        """Stiffness of effects beyond their matrices in the equations."""
-        total = csc_array((self._n, self._n))
-        for name, one in pulls.items():
-            total = total + one.stiffness() / self._span.weight - self._lines[name][1]
-        return csc_array((total + total.T) / 2 if self._symmetrised else total)
+        """Stiffness of effects beyond their matrices in the equations; kept with its parts."""
+        weight, even = self._span.weight, self._symmetrised
+        pairs = [(one.stiffness(), self._lines[name][1]) for name, one in pulls.items()]
+
+        def made() -> csc_array:
+            total = csc_array((self._n, self._n))
+            for stiffness, matrix in pairs:
+                total = total + stiffness / weight - matrix
+            return csc_array((total + total.T) / 2) if even else total
+
+        name = f"beyond lines, {weight}, {even}"
+        return self._plan.total(name, [one for pair in pairs for one in pair], made)
 
     def imbalance(
         self,

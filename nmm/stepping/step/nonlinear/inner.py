@@ -1,6 +1,7 @@
 """Nonlinear internal forces within a step: of materials and of effects."""
 
 import numpy as np
+from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.assembly.moving.kinematics import Kinematics
@@ -77,6 +78,14 @@ class InternalForces:
         self.elastic, self.start = self._matter.elastic, self._matter.start
         self.scale = current.model.force_scale
         self.size = current.model.manifold.elements.extent
+        self._current = current
+
+    def stiffness(self, at: Iterate) -> csc_array:
+        """Return the tangent (n, n): that of matter itself where effects add nothing."""
+        parts = [at.matter.stiffness, at.effects.stiffness]
+        if not parts[1].nnz:
+            return parts[0]
+        return self._current.plan.total("internal forces", parts, lambda: parts[0] + parts[1])
 
     def at(
         self, increment: Floats, before: Iterate | None = None, after: State | None = None

@@ -73,13 +73,6 @@ class Iterate:
         """(n,) of both."""
         return self.matter.force + self.effects.force
 
-    @property
-    def stiffness(self) -> csc_array:
-        """(n, n) of both; that of matter itself where effects add nothing."""
-        if not self.effects.stiffness.nnz:
-            return self.matter.stiffness
-        return csc_array(self.matter.stiffness + self.effects.stiffness)
-
     def with_tangent_of(self, other: "Iterate") -> "Iterate":
         """Return the iterate with the tangent that effects have at another one."""
         known = other.effects

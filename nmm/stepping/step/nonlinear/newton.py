@@ -102,6 +102,6 @@ def _goes_on(found: Attempt) -> bool:
 
 def _line(inner: InternalForces, at: Iterate, clock: Clock) -> Linearisation:
     with clock.phase("assembly"):
-        stiffness = at.stiffness
+        stiffness = inner.stiffness(at)
     force = at.force - product(stiffness, at.increment) if at.increment.any() else at.force
     return Linearisation(stiffness, force, inner.start, inner.symmetric)
