@@ -100,6 +100,11 @@ class DiffusionProblem:
             total[one.chosen] = one.factor(time) * one.unknowns[one.chosen]
         return total
 
+    @cached_property
+    def _given_field(self) -> Floats:
+        """(n,) the field where all of it is given for good: the same array at all times."""
+        return self.prescribed(0.0)
+
     def changes(self, begin: float, end: float) -> bool:
         """Whether any source or condition differs between two times."""
         return any(factor(begin) != factor(end) for factor in self._varying)
@@ -146,6 +151,8 @@ class DiffusionProblem:
         ``before`` (n,) are those at its beginning; ``room`` (n,) is filled in the step besides.
         """
         assert self.capacity is not None
+        if not self.free.any():
+            return self._given_field if self.still else self.prescribed(end)
         step = step_between(begin, end)
         force = self.capacity @ before + step * theta * self.load(end)
         if theta < 1:
@@ -187,7 +194,12 @@ class DiffusionProblem:
 
     def stored(self, unknowns: Floats) -> float:
         """What these bodies hold beyond a field of zero."""
-        return 0.0 if self.capacity is None else self.total(self.capacity @ unknowns)
+        return self._stored.of(unknowns)
+
+    @cached_property
+    def _stored(self) -> KeptOfArray[float]:
+        capacity = self.capacity
+        return KeptOfArray(lambda at: 0.0 if capacity is None else self.total(capacity @ at))
 
     def total(self, weighed: Floats) -> float:
         """Sum over these bodies of what is weighed (n,) by the functions."""
@@ -202,6 +214,7 @@ class DiffusionProblem:
         """Drop matrices and decompositions."""
         self._systems.clear()
         self._resting.forget()
+        self._stored.forget()
 
     def _solved(self, step: float, force: Floats, time: float) -> Floats:
         """Solve for what is free in the system of a step (s), see `_system`."""

@@ -7,13 +7,14 @@ stresses (Terzaghi 1936; Biot 1941 for ``b``), and a share of it in plane stress
 """
 
 from collections.abc import Mapping
-from functools import partial
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.kept import KeptOfArray
 from nmm.assembly.state import State
 from nmm.diffusion.course import FieldCourse
 from nmm.diffusion.field_effect import FieldEffect, course_of
@@ -97,7 +98,11 @@ class PoreWater(FieldEffect):
 
     def acting(self, time: float) -> Floats:
         """Unknowns (n,) of the pressure (Pa)."""
-        return self._weight * (self.here(time).unknowns - self._ground)
+        return self._pressure.of(self.here(time).unknowns)
+
+    @cached_property
+    def _pressure(self) -> KeptOfArray[Floats]:
+        return KeptOfArray(lambda head: self._weight * (head - self._ground))
 
     def pore_pressure_at(self, elements: Ints, points: Floats, time: float) -> Floats:
         return np.asarray(self.space.values(elements, points) @ self.acting(time))

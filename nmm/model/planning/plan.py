@@ -3,12 +3,13 @@
 Hooks that no effect has are never called.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from math import isfinite
 from operator import is_
 from time import perf_counter
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -77,10 +78,22 @@ class Plan(EnergyPlan):
             total += part
         return total
 
-    def forces(self, state: State, end: Instant, half: HalfWay | None = None) -> Iterator[Floats]:
-        """Yield the force (n,) of each effect, dead ones ``half`` way where bodies turn."""
+    def forces(
+        self,
+        state: State,
+        end: Instant,
+        half: HalfWay | None = None,
+        known: Mapping[str, Floats] = MappingProxyType({}),
+    ) -> Iterator[Floats]:
+        """Yield the force (n,) of each effect, dead ones ``half`` way where bodies turn.
+
+        Those ``known`` by name are not asked for again.
+        """
         shape = state.deformation.shape
         for name, effect in self.named("force"):
+            if name in known:
+                yield known[name]
+                continue
             start = perf_counter()
             if half is None or not effect.dead:
                 part = effect.force(state, end)
@@ -99,6 +112,28 @@ class Plan(EnergyPlan):
                     "expected finite numbers: correct its magnitude, history or place"
                 )
             yield part
+
+    def force_at_start(
+        self, state: State, end: Instant, half: HalfWay | None, parts: Sequence[Floats]
+    ) -> Floats:
+        """Return the sum (n,) as a step begins; ``parts`` (n,) are the forces at its ``end``."""
+        total = np.zeros(len(state.deformation))
+        known = dict(zip(self._lasting, parts, strict=True))
+        known.pop("", None)
+        same = end.load_factor == state.load_factor
+        for part in self.forces(state, Instant.of(state), half, known if same else {}):
+            total += part
+        return total
+
+    @cached_property
+    def _lasting(self) -> list[str]:
+        """Names of the effects with forces that no instant changes; empty for others.
+
+        What is told of stresses of others changes with them.
+        """
+        told = {name for name, _ in self.named("receive_stresses")} if self.stresses else set()
+        pairs = self.named("force")
+        return [name if one.steady and name not in told else "" for name, one in pairs]
 
     def unit_load(self, state: State) -> Floats:
         """Return the force (n,) that a load factor of one more adds (N)."""

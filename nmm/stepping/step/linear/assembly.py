@@ -77,7 +77,7 @@ class Assembly:
             state, end, step, rule, line.stiffness, force, symmetric=even, among=among
         )
         same = plan.steady and end.load_factor == state.load_factor
-        before = applied if same else plan.force(state, Instant.of(state), half)
+        before = applied if same else plan.force_at_start(state, end, half, parts)
         return self._in_time(given, line, matter is None, before)
 
     def _nothing_acts(self, parts: Sequence[Floats], force: Floats, matrix: csc_array) -> bool:
