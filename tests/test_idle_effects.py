@@ -15,7 +15,9 @@ from nmm.effects.members.chains import Chains
 from nmm.effects.members.linked import Linked
 from nmm.effects.members.links import Links
 from nmm.model.effects_table import EFFECTS
+from nmm.model.planning.plan import Plan
 from nmm.stepping.step.linear.assembly import Assembly
+from nmm.water.joints.storage import JointStorage
 
 BENCHMARKS = Path(__file__).resolve().parents[1] / "benchmarks"
 sys.path.insert(0, str(BENCHMARKS))
@@ -54,6 +56,28 @@ def test_an_idle_member_makes_its_matrix_once_a_run(name, monkeypatch):
     assert len(made) == 1
 
 
+def test_matrices_of_an_idle_member_are_summed_once_a_run(monkeypatch):
+    made, total = Counter(), Plan.total
+
+    def counted(plan, name, parts, make):
+        return total(plan, name, parts, lambda: made.update([name]) or make())
+
+    monkeypatch.setattr(Plan, "total", counted)
+    nmm.run(IDLE["a dashpot of no viscosity"].scenes(2 * STEPS)[1])
+    assert made
+    assert max(made.values()) == 1
+
+
+def test_water_in_joints_is_solved_for_once_for_each_volume_of_a_step(monkeypatch):
+    found, balanced = [], JointStorage._balanced
+    monkeypatch.setattr(
+        JointStorage, "_balanced", lambda *a: found.append(balanced(*a)) or found[-1]
+    )
+    nmm.run(IDLE["water that is stored in joints that are closed"].scenes(STEPS)[1])
+    # At the volumes with which a step begins, and at those at which it ends.
+    assert STEPS <= len(found) <= 2 * STEPS
+
+
 def test_a_bolt_answers_each_solution_of_a_step_once_and_solves_for_no_slips(monkeypatch):
     """Its laws are linear: slips are a product, and a step begins with the answer at its start."""
     counts = Counter()
@@ -71,11 +95,14 @@ def test_a_bolt_answers_each_solution_of_a_step_once_and_solves_for_no_slips(mon
     assert counts["_nearer"] == 0
 
 
-def test_forces_that_no_instant_changes_are_asked_once_a_solution(monkeypatch):
+@pytest.mark.parametrize(
+    "name", ["a bolt in a wall at rest", "water that is stored in joints that are closed"]
+)
+def test_forces_that_no_instant_changes_are_asked_once_a_solution(name, monkeypatch):
     asked, solved, force, of = [], [], Gravity.force, Assembly.of
     monkeypatch.setattr(Gravity, "force", lambda *a: asked.append(0) or force(*a))
     monkeypatch.setattr(Assembly, "of", lambda *a: solved.append(0) or of(*a))
-    nmm.run(IDLE["a bolt in a wall at rest"].scenes(STEPS)[1])
+    nmm.run(IDLE[name].scenes(STEPS)[1])
     assert len(solved) >= STEPS
     assert len(asked) <= len(solved) + 1  # and where the run begins
 

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from covers.approximation.singular import enriched_fields
 from nmm.errors import FormulationError, NmmError
 from nmm.formulation import CoverTable, EnrichmentTable, parse_formulation
 from nmm.fracture.stress_intensity import stress_intensity
@@ -70,7 +71,36 @@ def test_explain_says_which_tips_carry_functions(
     assert "without tip functions" in " ".join(capsys.readouterr().out.split())
 
 
+def test_functions_about_a_tip_are_found_once_for_the_covers_of_an_element_and_slope_as_they_rise(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    crack = [[[-0.5, 0.0], [0.5, 0.0]]]
+    manifold = solid(
+        SQUARE, CoverTable(type="triangles", size=0.4, degree=1), ROCK, "strain", cracks=crack
+    ).manifold
+    element = np.flatnonzero(np.hypot(*(manifold.elements.centroids - [0.5, 0.0]).T) < 0.2)
+    point, step = manifold.elements.centroids[element], 1e-6
+    unknowns = np.random.default_rng(3).normal(size=manifold.n_unknowns)
+    asked: list[int] = []
+    was = enriched_fields.singular_fields
+    monkeypatch.setattr(
+        enriched_fields, "singular_fields", lambda *a: asked.append(len(a[1])) or was(*a)
+    )
+    index, rows = manifold.gradient_rows(element, point)
+    assert 0 < sum(asked) <= len(element)  # and not thrice, for three covers
+    for axis in range(2):
+        way = step * np.eye(2)[axis]
+        ahead, behind = (
+            manifold.rows(element, p).apply(unknowns) for p in (point + way, point - way)
+        )
+        slope = np.einsum("mcl,ml->mc", rows[:, :, axis], unknowns[index])
+        # Truncation step^2 times third derivatives, of the root at distances above 0.05, 1e3.
+        np.testing.assert_allclose(slope, (ahead - behind) / (2 * step), rtol=1e-5, atol=1e-6)
+
+
 SQUARE = polygon([[0.0, -1.0], [1.0, -1.0], [1.0, 1.0], [0.0, 1.0]])
+
+ROCK = [Elastic(1.0, 0.3)]
 
 
 def test_a_domain_that_holds_the_whole_of_its_crack_is_refused() -> None:
