@@ -120,7 +120,7 @@ class Candidates:
         if record.found is not None and record.known is not None:
             number, old = follow(record.found, found), record.known
         before = Predecessors(old, number, self._lasting(new, in_time))
-        if in_time and len(old):
+        if in_time and old.gap.size:
             new, before = pushing_on(new, before, surface)
         new = self._geometry.measured(new, state)
         return found, self._followed(record, new, before, in_time)
@@ -203,7 +203,7 @@ class Candidates:
         old, left = before.old, record.book.left
         stiffness, body = self._laws.normal_stiffness, self._geometry.model.manifold.boundary.body
         new = counted(remember(new, before), before, stiffness, body, left, self._ahead)
-        if len(old):
+        if old.gap.size:
             new = as_stretched(new, before)
         if record.known is None:
             return new

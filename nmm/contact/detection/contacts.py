@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Self, TypeVar
 
 import numpy as np
 
-from covers.concatenate import concatenate, some_of
+from covers.concatenate import concatenate
 from integration.arrays import Bools, Floats, Ints
 from integration.plane_vectors import dot
 from nmm.contact.detection.tolerances import FACING
@@ -57,7 +57,7 @@ class Contacts:
 
     def take(self, index: Ints | Bools) -> Self:
         """Return some of the contacts."""
-        return some_of(self, index)
+        return type(self)(*(getattr(self, part.name)[index] for part in fields(self)))
 
 
 @dataclass(frozen=True, eq=False)

@@ -97,7 +97,7 @@ class ContactLaws(LawFacts):
         if TIED in after:  # no spring of whole bonds may be too soft: terms hold them
             spring = np.where(contacts.tied, np.inf, spring)
         for law, index, history in self.by_law(contacts):
-            if len(index) == len(contacts):
+            if index.shape == contacts.gap.shape:
                 after |= law.evolved(history, gap, sliding, spring)
                 continue
             given = gap[index], sliding[index], spring[index]
@@ -205,7 +205,7 @@ class ContactLaws(LawFacts):
         """Yield each law with its contacts and their history, columns of its own alone."""
         for law, index in self._members(contacts):
             names, known = (*KEPT, *law.columns), contacts.history
-            if len(index) == len(contacts):
+            if index.shape == contacts.gap.shape:
                 yield law, index, {name: known[name] for name in names}
             else:
                 yield law, index, {name: known[name][index] for name in names}

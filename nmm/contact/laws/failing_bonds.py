@@ -24,7 +24,7 @@ def breaking(
     Whole bonds that begin to soften do so together, since no force jumps.
     """
     if not laws.hold(contacts):
-        return np.zeros(len(contacts), dtype=bool)
+        return np.zeros(contacts.gap.shape, dtype=bool)
     load = overload(laws, contacts, answer)
     over, brittle = load > 1, laws.brittle[contacts.interface]
     if worst_only and (over & brittle).any():

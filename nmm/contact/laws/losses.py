@@ -133,7 +133,7 @@ class ContactLosses:
 def softening(laws: ContactLaws, contacts: ContactPoints, limits: Limits) -> Bools:
     """Return which contacts (m,) are bonds that lose their strength in the course of steps."""
     if not laws.hold(contacts):
-        return np.zeros(len(contacts), dtype=bool)
+        return np.zeros(contacts.gap.shape, dtype=bool)
     return contacts.bonded & ~contacts.tied & np.isfinite(limits.tension)
 
 

@@ -124,7 +124,7 @@ class ContactPoints:
     def tied(self) -> Bools:
         """Which of the bonds consistent terms hold (`nmm.contact.bonds`)."""
         if TIED not in self.history:
-            return np.zeros(len(self), dtype=bool)
+            return np.zeros(self.gap.shape, dtype=bool)
         return np.asarray(self.bonded & (self.history[TIED] > 0))
 
 

@@ -80,7 +80,7 @@ class ContactSolver:
 
     def alone(self, contacts: ContactPoints, request: StepRequest) -> ContactSolution | None:
         """Solve a step in time without contact points; return None where there are any."""
-        if len(contacts) or request.step is None or request.null_space is not None:
+        if contacts.gap.size or request.step is None or request.null_space is not None:
             return None
         self.last = None
         return self.untouched.solve(contacts, request)

@@ -132,7 +132,7 @@ def correcting(record: ContactRecord, solved: ContactSolution, began: "Surface")
     known, points = record.known, record.book.points
     if known is not None:
         known = with_parts(known, slid=slid[~contacts.is_joint])
-    if len(points):
+    if points.gap.size:
         joints = np.flatnonzero(contacts.is_joint)
         joints = joints[np.isin(contacts.key[joints], points.key)]
         points = with_parts(points, slid=slid[joints])

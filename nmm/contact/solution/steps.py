@@ -84,7 +84,7 @@ class ContactSteps:
         if mixed is not None:
             points, total = mixed.stretched(points), total - mixed.energy
         points = concatenate([points, record.book.left])
-        if len(points):
+        if points.gap.size:
             total += self.laws.energy(points, own_only=exact)
         if self.bonds.terms is None:
             return total

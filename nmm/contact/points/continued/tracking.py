@@ -62,7 +62,7 @@ def remember(new: ContactPoints, before: Predecessors) -> ContactPoints:
         return with_parts(
             new, history=old.history, **{name: getattr(old, name) for name in CARRIED}
         )
-    if not len(old):
+    if not old.gap.size:
         return new
     kept: dict[str, Any] = {
         name: np.where(before.known, getattr(old, name)[before.source], getattr(new, name))

@@ -151,7 +151,7 @@ class ContactSearch:
             return None
         given = solved, equations.state, result.state, sought.midpoint
         half = contact.momentum.midpoint(*given)
-        meets = len(sought.contacts) > 0
+        meets = sought.contacts.gap.size > 0
         if half is None and not (meets and self._misjudged(equations, result.state)):
             return None
         half = half or sought.midpoint

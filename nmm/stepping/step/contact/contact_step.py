@@ -100,7 +100,7 @@ class ContactStepSolver:
             if further is None:
                 break
             sought = further
-            if len(sought.contacts):  # in flight as without contact
+            if sought.contacts.gap.size:  # in flight as without contact
                 equations = self._spinning(equations, result.state)
         self.search.keep(state, sought)
         if good and solved.rows is not None:
