@@ -2,7 +2,8 @@
 
 Each solution uses a fixed history, and gives the history that it should have used. Under
 softening of slope ``h`` against a structure of stiffness ``S`` the changes shrink by ``h / S`` an
-iteration: they vanish as long as the structure is stable, and acceleration makes that quick.
+iteration: they vanish as long as the structure is stable, and acceleration makes that quick. Where
+``h > S`` they grow, and the bond gives way, to an answer at which the structure is stable again.
 """
 
 from dataclasses import replace
@@ -26,6 +27,8 @@ UNCHANGED, BY_ROUNDING = 1e-9, 1e-7
 no more, because functions depend on one another and rounding is large."""
 LASTING, SHRUNK = 50, 0.5
 """Changes shrink no more where so many solutions leave more than this share of the least before."""
+RETURNED = 4
+"""Returns to the start of the step after which bonds are taken to give way by themselves."""
 
 
 class HistoryIteration:
@@ -50,6 +53,7 @@ class HistoryIteration:
         self.before = self.response = laws.response(start, self.springs[0])
         self.done = False
         self._changes: list[float] = []
+        self._returned = 0
         self._iteration = FixedPoint()
         self._index = {
             name: np.flatnonzero(
@@ -119,7 +123,10 @@ class HistoryIteration:
             for one in (now, image)
         )
         ends = np.cumsum([len(at) for at in self._index.values()])
-        following = np.split(self._iteration.next(point, target), ends[:-1])
+        chosen = self._iteration.next(point, target)
+        if self._gives_way(chosen, target, size):
+            self._iteration, chosen = FixedPoint(), target
+        following = np.split(chosen, ends[:-1])
         history = dict(now)
         for (name, at), values in zip(self._index.items(), following, strict=True):
             least = self.start.history[name][at] if columns[name].grows else -np.inf
@@ -127,6 +134,26 @@ class HistoryIteration:
             history[name][at] = np.clip(size[name] * values, least, columns[name].most)
         self.contacts = replace(self.contacts, history=history)
         self.response = self._laws.response(self.contacts, self.springs[0])
+
+    def _gives_way(self, chosen: Floats, target: Floats, size: dict[str, float]) -> bool:
+        """Whether the answer that acceleration aims at lies before the start of the step.
+
+        A bond that loses its force faster than the structure unloads has changes that grow, and an
+        answer only behind it, at less than it has lost: it gives way as far as its own changes
+        lead, to where they shrink again or all of it is lost.
+        """
+        columns = self._laws.evolving
+        least = np.concatenate(
+            [
+                self.start.history[name][at] / size[name]
+                if columns[name].grows
+                else np.full(len(at), -np.inf)
+                for name, at in self._index.items()
+            ]
+        )
+        behind = (chosen < least) & (target > least + UNCHANGED)
+        self._returned += bool(behind.any())
+        return self._returned > RETURNED and bool(behind.any())
 
     def losses(self, answer: StepAnswer, sliding: Floats) -> ContactLosses:
         """Return what contacts went through in the step."""
