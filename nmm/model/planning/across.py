@@ -20,7 +20,7 @@ def stress_across(plan: Plan, model: Model, state: State, stress: Floats) -> Flo
     if model.plane == "stress":
         return None
     found = model.stress_across(state, stress)
-    for effect in plan.having("mean_stress"):
+    for _, effect in plan.named("mean_stress"):
         if defines(effect, "mean_stress_across"):
             found = found + effect.mean_stress_across(state)
         else:

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from integration.arrays import Floats, columns
+from nmm.assembly.kept import KeptOfObject
 from nmm.assembly.state import State
 from nmm.effects.view import View
 from nmm.model.planning.across import stress_across
@@ -21,12 +22,13 @@ if TYPE_CHECKING:
 
 def viewed(stepper: Stepper, state: State, contacts: "ContactPoints | None") -> View:
     """Return a state with what can be read from it; stress is computed when it is requested."""
+    own = KeptOfObject[State, Floats](lambda state: _own(stepper, state))
     return View(
         stepper.model,
         state,
         contacts,
-        lambda state: _stress(stepper, state),
-        lambda state: _across(stepper, state),
+        lambda state: _stress(stepper, state, own.of(state)),
+        lambda state: stress_across(stepper.plan, stepper.model, state, own.of(state)),
     )
 
 
@@ -56,21 +58,18 @@ def framed(
     )
 
 
-def _stress(stepper: Stepper, state: State) -> Floats:
-    """Return the mean Cauchy stress (E, 3) of the elements in global axes (Pa)."""
-    model, plan = stepper.model, stepper.plan
-    added = plan.added_stress(state)
-    stress = model.stress(state, patch_pressures(plan, model, state))
+def _own(stepper: Stepper, state: State) -> Floats:
+    """Return the mean stress (E, 3) of the elements by their strain, in body axes (Pa)."""
+    model = stepper.model
+    return model.stress(state, patch_pressures(stepper.plan, model, state))
+
+
+def _stress(stepper: Stepper, state: State, stress: Floats) -> Floats:
+    """Return the mean Cauchy stress (E, 3) of the elements in global axes, by their own (Pa)."""
+    added = stepper.plan.added_stress(state)
     if added is not None:
         stress = stress + added
-    return _turned(stress, state.frames.angle[model.manifold.element_body])
-
-
-def _across(stepper: Stepper, state: State) -> Floats | None:
-    """Return the mean stress across the plane (E,) of the elements, None in plane stress (Pa)."""
-    model, plan = stepper.model, stepper.plan
-    stress = model.stress(state, patch_pressures(plan, model, state))
-    return stress_across(plan, model, state, stress)
+    return _turned(stress, state.frames.angle[stepper.model.manifold.element_body])
 
 
 def _across_field(view: View) -> dict[str, Quantity]:
