@@ -28,6 +28,9 @@ ROUNDED = 1e-9
 ROUNDING = 10 * float(np.finfo(float).eps)
 # Shortest step of the line search on slips.
 SHORTEST = 0.5**7
+# The same where a bar that slides and yields all along is held by `LEFT` alone, which says nothing
+# of how far it is to where some of it is elastic again.
+FARTHEST = 0.5**40
 # Share of its elastic stiffness that a bond always keeps in the iteration, so that a bar without
 # bond stays where it is.
 LEFT = 1e-10
@@ -194,11 +197,13 @@ class Chains:
         if len(unstable):
             factors = cholesky_banded(self._elastic)
         way = -cho_solve_banded((factors, False), out)
-        was, part = float(np.linalg.norm(out)), 1.0
+        was, part, shortest = float(np.linalg.norm(out)), 1.0, SHORTEST
         while True:
             found = self._at(stretch, now.slip + part * way, memory)
             left = self._residual(found)
-            if np.linalg.norm(left[0]) < was or part <= SHORTEST:
+            beyond = bool(left[0] @ way > -(out @ way))  # the least energy on the way
+            shortest = FARTHEST if beyond else shortest
+            if (np.linalg.norm(left[0]) < was and not beyond) or part <= shortest:
                 return found, left
             part /= 2
 

@@ -416,3 +416,44 @@ def test_of_slips_alike_at_both_ends_the_one_at_the_first_is_told_wherever_the_b
     told = nmm.run(nmm.parse_scene(text)).history["bars:bar:slip"][-1]
     # Pieces of h = 7 mm: (a h)^2 = 7e-4.
     assert told == pytest.approx(wanted, rel=1e-3)
+
+
+FREE_TO_THE_GROUND = """
+plane = "stress"
+[materials.rock]
+young_modulus = "1e6 GPa"
+poisson_ratio = 0.0
+[[blocks]]
+name = "block"
+material = "rock"
+vertices = [[0, 0], [2, 0], [2, 1], [0, 1]]
+[[supports]]
+name = "moved"
+block = "block"
+fix = ["x", "y"]
+displacement = ["%s", 0]
+[[bars]]
+name = "bar"
+points = [[1.5, 0.5], [-1, 0.5]]
+blocks = ["block", "ground"]
+area = "100 mm^2"
+perimeter = "0.1 m"
+young_modulus = "200 GPa"
+yield_stress = "100 MPa"
+ends = ["free", "ground"]
+[bars.bond]
+law = "plastic"
+stiffness = "1 GPa/m"
+strength = "%s kPa"
+"""
+
+
+@pytest.mark.parametrize("way", ["1 mm", "50 mm"])
+@pytest.mark.parametrize(("strength", "force"), [(50, 7.5e3), (66, 9.9e3), (200, 1e4)])
+def test_a_bar_is_pulled_out_in_one_increment_though_its_free_length_would_yield_first(
+    way, strength, force
+):
+    found = nmm.run(nmm.parse_scene(FREE_TO_THE_GROUND % (way, strength)))
+    assert found.summary.status == "converged", found.summary.sentence
+    # 1.5 m of bond, 0.1 m around; the steel yields at 10 kN. Slips balance to 1e-13 of the forces.
+    assert found.history["bars:bar:force"][-1] == pytest.approx(force, rel=1e-9)
