@@ -12,6 +12,7 @@ from nmm.effects.base import Effect, Setup
 from nmm.effects.change import Change
 from nmm.model.planning.making import compile_plan, plan_after
 from nmm.model.planning.plan import Plan
+from nmm.model.staging.forgotten import without_members_gone
 
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
@@ -62,7 +63,8 @@ class Discretisation:
             from nmm.effects.initial.initial_velocity import InitialVelocity
 
             declared = InitialVelocity.from_setup(setup).begin(declared)
-        after = carried(old, new, kin, state, declared)
+        memory = without_members_gone(state.memory, self.setup.scene, setup.scene)
+        after = replace(carried(old, new, kin, state, declared), memory=memory)
         change = Change(self.setup, setup, kin, after, former=state)
         if np.array_equal(self.setup.region_material, setup.region_material):
             return change

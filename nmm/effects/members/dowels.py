@@ -25,6 +25,7 @@ from nmm.effects.members.linked import Linked
 from nmm.effects.members.links import Links
 from nmm.effects.members.member_set import Members
 from nmm.materials.uniaxial import Uniaxial
+from nmm.scene.tables.members import DOWEL
 
 if TYPE_CHECKING:
     from nmm.scene.tables.bars import BarTable
@@ -62,7 +63,7 @@ class Dowels(Linked):
         laws = [_law(bars[one], decay[one]) for one in owner]
         number = np.array([one.number for one in bars])[owner]
         members = Members(
-            tuple(f"{one.name} dowel" for one in bars),
+            tuple(one.name + DOWEL for one in bars),
             (PLACES,) * len(bars),
             _links(setup, crossed, ends[owner], 1 / decay[owner]),
             Chains.without_slip(Fibres.of(laws, np.ones(len(owner)), number)),
@@ -81,7 +82,7 @@ class Dowels(Linked):
         found = super().history(state)
         lever = np.exp(-np.pi / 4) * np.sin(np.pi / 4) / self._decay
         forces = [found[f"{name}:force"] for name in self.members.names]
-        names = [name.removesuffix(" dowel") for name in self.members.names]
+        names = [name.removesuffix(DOWEL) for name in self.members.names]
         row = {f"{name}:shear": force for name, force in zip(names, forces, strict=True)}
         return row | {
             f"{name}:moment": force * arm

@@ -27,6 +27,9 @@ Mass = Annotated[float, quantity("kg")]
 MEMBERS = ("springs", "dashpots", "bars", "foundations", "masses")
 """Keys of a scene whose tables stages may name as ``members``; names are unique among them."""
 
+DOWEL = " dowel"
+"""What the names of bars end in where their dowels are meant."""
+
 GROUND = "ground"
 """Name of the ground where blocks are named."""
 

@@ -154,3 +154,40 @@ def test_a_member_that_a_stage_leaves_out_is_gone():
     found = nmm.run(nmm.parse_scene(text))
     assert found.summary.status == "converged", found.summary.sentence
     assert np.isnan(found.history["springs:prop:force"][-1])
+
+
+AGAIN = """
+[[stages]]
+name = "propped"
+[[stages]]
+name = "without"
+members = []
+[[stages]]
+name = "again"
+members = ["prop"]
+"""
+BOLTED = """
+[[bars]]
+name = "prop"
+points = [[0.5, 1], [0.5, 3]]
+diameter = "32 mm"
+young_modulus = "200 GPa"
+[bars.bond]
+law = "plastic"
+stiffness = "10 GPa/m"
+strength = "20 kPa"
+"""
+
+
+@pytest.mark.parametrize("bolted", [False, True], ids=["yields", "slides"])
+def test_a_member_that_is_put_in_again_knows_nothing_of_its_yielding_before(bolted):
+    whole, stages = STAGED.split('[[springs]]\nname = "tie"')[0], AGAIN
+    whole = whole.replace('"250 MN/m"\n', '"250 MN/m"\nyield_force = "100 kN"\n')
+    whole = whole.split("[[springs]]")[0] + BOLTED if bolted else whole
+    found = nmm.run(nmm.parse_scene(whole + stages))
+    assert found.summary.status == "converged", found.summary.sentence
+    forces = found.history["bars:prop:force" if bolted else "springs:prop:force"]
+    # A meter of bond from either end to the middle; from there on no load changes.
+    most = 1.0 * np.pi * 0.032 * 2e4 if bolted else 1e5
+    assert forces[0] == pytest.approx(-most, rel=0.02)  # pieces of 50 mm
+    assert forces[-1] == pytest.approx(0.0, abs=1e-6 * most)
