@@ -43,6 +43,7 @@ SHARE = {
     "solids": [["block"], ["triangles degree 1"], ["bspline degree 0"], ["mls degree 0"]],
     "steps": [["newmark"]],
     "scenes": [["block"], ["rigid"]],
+    "anchored": [["penalty"]],
     "features": [["events"], ["bars with slip"], ["seasons"], ["standing reactions"]],
 }
 

@@ -27,6 +27,7 @@ HARD = Registry[type[HardClass]](
         "steps": f"{_HOME}.halving:Steps",
         "agreement": f"{_HOME}.halving:Agreement",
         "ratios": f"{_HOME}.ratios:Ratios",
+        "anchored": f"{_HOME}.anchored:Anchored",
         "events": f"{_HOME}.events:Events",
         "solids": f"{_HOME}.random_solids:Solids",
         "scenes": f"{_HOME}.scenes.scenes:Scenes",
