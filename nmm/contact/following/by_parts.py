@@ -39,6 +39,7 @@ def follow(problem: PathProblem, path: PathEquation, solver: LinearSolver) -> Pa
         return begin
     if path.target and path.row.any():
         begin = problem.loaded_further(begin)
+    begin = problem.touching_stick(begin)
     found = newton(problem, path, solver, begin)
     if not found.converged:
         again = newton(problem, path, solver, begin, patient=True)

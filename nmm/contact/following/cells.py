@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from integration.arrays import Bools, Floats
+from nmm.contact.following.linear_step import linear_step
 from nmm.contact.following.path_problem import PathProblem, PathStep
 from nmm.controls.path_equation import PathEquation
 from nmm.errors import SolveError
@@ -71,8 +72,8 @@ class _Line:
     def way(self, slopes: Floats) -> Floats:
         """Return the way (n + 1,) of a whole ``t`` in the cell of tangents (m, 2, 2)."""
         path, begin = self.path, self.begin
-        factor = self.solver.unsymmetric().factorise(self.problem.tangent(begin, slopes))
-        along, still = factor.solve(path.load), factor.refined(begin.rest)
+        tangent = self.problem.tangent(begin, slopes)
+        still, along = linear_step(self.solver, tangent, path, begin)
         change = path.change(along, begin.increment + still, begin.change)
         return np.append(still + change * along, change)
 

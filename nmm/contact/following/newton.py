@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.contact.following.linear_step import linear_step
 from nmm.contact.following.path_problem import ROUNDED, PathProblem, PathStep
 from nmm.controls.path_equation import PathEquation
 from nmm.errors import SolveError
@@ -43,11 +44,8 @@ def newton(
     """
     step, outs = begin, [begin.residual]
     for count in range(1, (PATIENT_ITERATIONS if patient else ITERATIONS) + 1):
-        factor = solver.unsymmetric().factorise(problem.tangent(step))
-        along = factor.solve(path.load)
-        # What is left is rounding in the end, which dependent functions cannot follow: the balance
-        # of the iterate judges it.
-        still = step.increment + factor.refined(step.rest)
+        further, along = linear_step(solver, problem.tangent(step), path, step)
+        still = step.increment + further
         change = path.change(along, still, step.change)
         increment = still + change * along
         if not np.isfinite(increment).all():

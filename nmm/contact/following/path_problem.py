@@ -15,6 +15,8 @@ from nmm.controls.path_equation import PathEquation
 ROUNDED = 1e-8
 # Share of gaps and slips by which bonds at their limit are loaded further, for their tangents.
 LOADED_FURTHER = 1e-6
+# Share of what the forces of a step would press into a contact spring up to which faces touch.
+TOUCHING = 1e-3
 
 # From gaps and slips (m,) to forces.
 Law = Callable[[Floats, Floats], ContactForces]
@@ -97,6 +99,8 @@ class PathProblem:
         Contact force (N) due to rounded coordinates; a smaller residual counts as none.
     bent
         Other nonlinear forces of the step; None without any.
+    stiffest
+        Stiffness of the stiffest contact spring (N/m).
     """
 
     matrix: csc_array
@@ -108,6 +112,7 @@ class PathProblem:
     scale: float
     rounding: float = 0.0
     bent: Bent | None = None
+    stiffest: float = 0.0
 
     def at(self, path: PathEquation, increment: Floats, change: float) -> PathStep:
         """Return the iterate at an increment (n,) and a change of the load factor."""
@@ -135,6 +140,21 @@ class PathProblem:
         """
         further = self.law((1 + LOADED_FURTHER) * begin.gap, (1 + LOADED_FURTHER) * begin.slip)
         return replace(begin, contacts=replace(begin.contacts, slopes=further.slopes))
+
+    def touching_stick(self, begin: PathStep) -> PathStep:
+        """Return the start of a step with contacts that touch without force as if they stuck.
+
+        Friction is at its limit, zero, where nothing presses yet: by the tangents of that state a
+        block that only friction holds is free to move along the face that its weight will press.
+        """
+        touch = TOUCHING * self.scale / (self.stiffest or 1.0)
+        idle = (begin.gap <= touch) & ~begin.contacts.force.any(axis=1)
+        if not (touch and idle.any()):
+            return begin
+        gap, slip = np.where(idle, -touch, begin.gap), np.where(idle, 0.0, begin.slip)
+        pressed = self.law(gap, slip).tangent
+        tangent = np.where(idle[:, None, None], pressed, begin.contacts.tangent)
+        return replace(begin, contacts=replace(begin.contacts, slopes=lambda: tangent))
 
     def tangent(self, step: PathStep, slope: Floats | None = None) -> csc_array:
         """Return the matrix (n, n) by which forces answer a further increment.

@@ -50,12 +50,19 @@ def test_work_is_the_area_under_the_curve_whatever_the_steps(increment):
 
 
 ROPE, WAY, FRICTION = 1e3, 0.02, 1000 * 9.81 * math.tan(math.radians(20))
-"""Stiffness of a spring that keeps a block from drifting (N/m), its way (m), its friction (N)."""
+"""Stiffness of a spring that holds a block aside (N/m), its way (m), its friction (N)."""
 
 
-@pytest.mark.parametrize("increment", [WAY, WAY / 4])
-def test_friction_takes_its_force_times_the_way_from_the_first_step_on(increment):
-    """The load is friction as soon as the block slides, and half of it the first step's mean."""
+@pytest.mark.parametrize(("increment", "rope"), [(WAY, ROPE), (WAY / 4, ROPE), (WAY / 4, 0.0)])
+def test_friction_takes_its_force_times_the_way_from_the_first_step_on(increment, rope):
+    """The load is friction as soon as the block slides, and half of it the first step's mean.
+
+    Without the rope friction alone holds the block, by nothing before its weight presses.
+    """
+    held = (
+        '[[springs]]\nname = "rope"\npoints = [[1, 0.1], [3, 0.1]]\n'
+        f'blocks = ["block", "ground"]\nstiffness = {rope}\n'
+    )
     tables = [
         text.material("rock", 1e9, 0.2, 1000.0),
         text.interface("joint", 20.0),
@@ -64,8 +71,7 @@ def test_friction_takes_its_force_times_the_way_from_the_first_step_on(increment
         text.fixed_block("slab"),
         '[[loads]]\nname = "push"\nkind = "point"\npoint = [0, 0.1]\nblock = "block"\n'
         "force = [1000, 0]\n",
-        '[[springs]]\nname = "rope"\npoints = [[1, 0.1], [3, 0.1]]\n'
-        f'blocks = ["block", "ground"]\nstiffness = {ROPE}\n',
+        *([held] if rope else []),
         text.monitor("middle", (0.5, 0.5), "block"),
         '[loading]\nscaled = ["push"]\nuntil = "failure"\n[loading.control]\n'
         'type = "displacement"\nmonitors = ["middle"]\ndirection = [1, 0]\n'
@@ -75,5 +81,5 @@ def test_friction_takes_its_force_times_the_way_from_the_first_step_on(increment
     work = run.history["external_work"][-1] - run.history["external_work"][0]
     # The block is in balance under its weight at first. It strains, and slides less, by 1e-5 m.
     assert run.history["friction_loss"][-1] == pytest.approx(FRICTION * WAY, rel=1e-3)
-    assert work == pytest.approx(FRICTION * WAY + ROPE * WAY**2 / 2, rel=1e-3)
+    assert work == pytest.approx(FRICTION * WAY + rope * WAY**2 / 2, rel=1e-3)
     assert abs(run.summary.energy_balance) < 1e-4
