@@ -116,7 +116,9 @@ def measured(found: IterationResult, count: int) -> MultiplierIterate:
     forces = springs.forces(found.increment)
     jump = np.abs(np.where(problem.own_stiffness, 0.0, forces - springs.shift))
     gap = jump / springs.stiffness
-    counts = gap > UNKNOWN * terms_of_stretches(*problem.rows, found.increment)
+    # Bodies that fall side by side: their faces move along each other, and gaps round as they do.
+    moved = terms_of_stretches(*problem.rows, found.increment).max(axis=0)
+    counts = gap > UNKNOWN * moved
     gap = np.where(counts, gap, 0.0)
     part = gap / compliances(problem)
     size = float(np.abs(forces).max(initial=0.0))
