@@ -59,7 +59,19 @@ class Auto(DefiniteSolver):
 
 @dataclass(frozen=True)
 class AutoLU(Auto):
-    """LU in compiled code where it is at hand or pays its import, else SuperLU."""
+    """LU in compiled code where it is at hand or pays its import, else SuperLU.
+
+    Attributes
+    ----------
+    single
+        Whether it is for steps that later ones mend.
+    """
+
+    single: bool = False
+
+    def rough(self) -> "AutoLU":
+        return replace(self, single=True)
 
     def _chosen(self, unknowns: int) -> LinearSolver:
-        return super()._chosen(unknowns).unsymmetric()
+        found = super()._chosen(unknowns).unsymmetric()
+        return found.rough() if self.single else found

@@ -70,6 +70,10 @@ class LinearSolver(ABC):
         """Return the solver with settings for nearly symmetric matrices with good pivots."""
         return self.indefinite()
 
+    def rough(self) -> "LinearSolver":
+        """Return the solver for steps that later ones mend: in the precision that costs least."""
+        return self
+
     def in_full(self, unknowns: int) -> bool:
         """Return whether matrices of so many unknowns are regular and factorised in full."""
         return False

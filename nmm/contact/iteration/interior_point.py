@@ -76,6 +76,10 @@ class InteriorPoint:
 
     def __init__(self, sides: Complementarity, tools: Tools) -> None:
         self.options, self.linear = tools.options.interior, tools.linear.unsymmetric()
+        # Springs and inertia hold all parts: what single precision leaves out of balance the next
+        # step takes up. Neither exact contacts nor mechanisms in statics are so kind.
+        kind = tools.memory.moving and not sides.exact.any()
+        self.inside = self.linear.rough() if kind else self.linear
         self.sides, self.pattern = sides, tools.memory.pattern_of(sides.springs.problem)
         self.keep = tools.memory.keep_tangent
         self.factorisations = self.solves = 0
@@ -172,7 +176,7 @@ class InteriorPoint:
     ) -> tuple[InteriorIterate, float]:
         """Point after predictor, corrector and corrections of centrality, and how far it went."""
         sides, options, products = self.sides, self.options, point.slack * point.flow
-        system = Linearised(sides, self.pattern, self.linear, point, options.soft, not jammed)
+        system = Linearised(sides, self.pattern, self.inside, point, options.soft, not jammed)
         affine = system.step(-products)
         if not np.isfinite(affine.increment).all():
             return affine, 0.0

@@ -20,6 +20,7 @@ from nmm.solvers.threads import OneThread
 CHOLESKY_KERNELS = "dpotrf", "dtrsm", "dsyrk", "dtrsv", "dgemv"
 LU_KERNELS = "dgetrf", "dtrsm", "dgemm", "dtrsv", "dgemv"
 SINGLE_KERNELS = "spotrf", "strsm", "ssyrk", "strsv", "sgemv"
+SINGLE_LU_KERNELS = "sgetrf", "strsm", "sgemm", "strsv", "sgemv"
 INVERTING = "dtrtri", "dtrsm"
 SINGLE_INVERTING = "strtri", "strsm"
 SINGLE = 1e-4
@@ -61,10 +62,13 @@ class FrontalFactor:
         return made if made._filled(matrix, (plan.source, plan.target)) else None
 
     @classmethod
-    def lu(cls, matrix: csc_array, plan: Fronts) -> Self | None:
-        """Return ``L`` and ``U`` of a matrix; None at a zero pivot."""
+    def lu(cls, matrix: csc_array, plan: Fronts, single: bool = False) -> Self | None:
+        """Return ``L`` and ``U`` of a matrix, in double or ``single`` precision.
+
+        None at a zero pivot.
+        """
         swaps = np.empty(matrix.shape[0], dtype=np.int32)
-        made = cls(plan, Workspace(plan.beside_start[-1]), swaps)
+        made = cls(plan, Workspace(plan.beside_start[-1], single), swaps)
         return made if made._filled(matrix, plan.places) else None
 
     def solve(self, rhs: Floats) -> Floats:
@@ -122,8 +126,8 @@ class FrontalFactor:
             or panels[self.plan.pivots].min(initial=1.0) ** 2 < SINGLE
         ):
             return None
-        workspace = Workspace((len(panels) + 1) // 2)
-        rounded = workspace.numbers.view(np.float32)[: len(panels)]
+        workspace = Workspace(len(panels), single=True)
+        rounded = workspace.numbers[: len(panels)]
         rounded[:] = panels
         return workspace, rounded
 
@@ -147,10 +151,11 @@ class FrontalFactor:
 
     def _filled(self, matrix: csc_array, places: tuple[Ints, Ints]) -> bool:
         """Factorise a matrix whose entries go to ``places``; say whether all pivots will do."""
-        plan, stack = self.plan, Workspace(self.plan.stack_size)
+        plan, single = self.plan, self._is_single
+        stack = Workspace(plan.stack_size, single)
         with OneThread():
             bad = fronts.factorise(
-                (addresses(*self._kernels), *words()),
+                (addresses(*self._kernels), *words(single)),
                 matrix.data,
                 *places,
                 plan.n_children,
@@ -169,7 +174,13 @@ class FrontalFactor:
 
     @property
     def _kernels(self) -> tuple[str, ...]:
-        return CHOLESKY_KERNELS if self.symmetric else LU_KERNELS
+        if self.symmetric:
+            return CHOLESKY_KERNELS
+        return SINGLE_LU_KERNELS if self._is_single else LU_KERNELS
+
+    @property
+    def _is_single(self) -> bool:
+        return bool(self.panels.numbers.dtype == np.float32)
 
     @property
     def _beside_start(self) -> Ints:

@@ -87,7 +87,7 @@ def _cholesky(outside: Outside, c: int, r: int, panel: Floats, update: Floats) -
     kernels, letters, sizes, scalars = outside
     at, n_c, one = letters.ctypes.data, sizes.ctypes.data, scalars.ctypes.data
     low, plain, right, turned = at, at + 1, at + 2, at + 3
-    n_r, n_h, info, minus = n_c + 4, n_c + 8, n_c + 12, one + 8
+    n_r, n_h, info, minus = n_c + 4, n_c + 8, n_c + 12, one + scalars.itemsize
     sizes[0], sizes[1], sizes[2] = c, r, c + r
     block = panel.ctypes.data
     blas.call5(kernels[0], (low, n_c, block, n_h, info))
@@ -106,7 +106,7 @@ def _lu(
     kernels, letters, sizes, scalars = outside
     at, n_c, one = letters.ctypes.data, sizes.ctypes.data, scalars.ctypes.data
     low, plain, right, turned, high = at, at + 1, at + 2, at + 3, at + 4
-    n_r, n_h, info, minus = n_c + 4, n_c + 8, n_c + 12, one + 8
+    n_r, n_h, info, minus = n_c + 4, n_c + 8, n_c + 12, one + scalars.itemsize
     sizes[0], sizes[1], sizes[2] = c, r, c + r
     block = panel.ctypes.data
     blas.call6(kernels[0], (n_c, n_c, block, n_h, swap.ctypes.data, info))

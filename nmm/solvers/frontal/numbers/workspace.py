@@ -5,8 +5,10 @@ the next factorisation pays for every page of it again.
 """
 
 from collections import deque
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from integration.arrays import Floats
 
@@ -18,15 +20,18 @@ SPARE: deque[Floats] = deque()
 class Workspace:
     """At least ``size`` numbers of any value, used by others once nobody holds it.
 
+    They are of double precision, or ``single``.
+
     Those who use ``numbers`` must hold it for as long. Threads may take and leave workspaces at
     the same time: a deque is changed in one piece.
     """
 
-    def __init__(self, size: int) -> None:
-        self.numbers = _taken(size)
+    def __init__(self, size: int, single: bool = False) -> None:
+        self._room = _taken((size + 1) // 2 if single else size)
+        self.numbers: npt.NDArray[Any] = self._room.view(np.float32) if single else self._room
 
     def __del__(self) -> None:
-        SPARE.append(self.numbers)
+        SPARE.append(self._room)
         while SPARE and sum(map(len, tuple(SPARE))) > SPARE_NUMBERS:
             SPARE.popleft()
 

@@ -100,6 +100,28 @@ def test_springs_of_sliding_contacts_leave_what_superlu_leaves(spread: float, se
     assert refined < 10 * other.relative_residual(other.refined(load), load) + 1e-15
 
 
+@pytest.mark.parametrize("name", ["auto", "cholesky", "lu"])
+def test_rough_factors_are_of_single_precision(name: str) -> None:
+    matrix, load = leaning(9, 1, 0.3), np.random.default_rng(0).normal(size=243)
+    solver = make_solver(name).beside(compiled=True).unsymmetric().rough()
+    found = solver.factorise(matrix).apply(load)
+    exact = np.linalg.solve(matrix.toarray(), load)
+    off = np.linalg.norm(found - exact) / np.linalg.norm(exact)
+    # rounding of 6e-8 times a condition of about ten; double precision leaves 1e-15
+    assert 1e-9 < off < 1e-5
+
+
+def test_rough_factors_are_of_double_precision_where_single_leaves_too_much() -> None:
+    # 200 masses in a row on springs of one that the ground holds by 1e-9 in all: condition 1e11,
+    # of which single precision knows nothing
+    line = eye_array(200, k=1) + eye_array(200, k=-1)
+    matrix = csc_array((2.0 + 5e-12) * eye_array(200) - line).tolil()
+    matrix[0, 0] = matrix[199, 199] = 1.0 + 5e-12
+    found = FrontalLU().rough().decompose(csc_array(matrix))
+    # a push of one on each moves all by one over the ground of each
+    np.testing.assert_allclose(found.solve(np.ones(200)), 2e11, rtol=1e-3)
+
+
 def test_pivots_are_exchanged_within_a_front() -> None:
     # No unknown has stiffness of its own before the other of its pair is eliminated.
     pairs = kron(eye_array(60), np.array([[0.0, 1.0], [-1.0, 0.0]]))
