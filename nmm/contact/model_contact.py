@@ -8,6 +8,8 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from covers.change.parentage import Parentage
 from integration.arrays import Bools, Floats, Ints
 from integration.sparse import csr_array
@@ -18,6 +20,7 @@ from nmm.contact.parts import ContactParts
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.followed_joints import follow_joints
 from nmm.contact.solution.record import (
+    BrokenBonds,
     ContactCarried,
     ContactRecord,
     ContactSolution,
@@ -63,6 +66,9 @@ class ModelContact(ContactWorkings):
         laws.refuse_soft(points.take(~points.tied))
         super().__init__(model, parts, bonds, points)
         book = replace(book, points=points)
+        if parts.joint_rule[0] == "gauss" and partners.at_corners:
+            beyond = np.isin(book.pair_joint, book.joint[points.tied])
+            book = replace(book, pair_beyond=beyond)
         self.record, self._unbonded = ContactRecord(book), book.broken
         self._sought: tuple[Contacts | None, Crossed | None] = None, None
 
@@ -110,11 +116,21 @@ class ModelContact(ContactWorkings):
         reach: float,
         step: float | None = None,
         crossed: "Crossed | None" = None,
+        broken: BrokenBonds | None = None,
     ) -> ContactPoints:
-        """Return the contact points of a step; see `Candidates.sought`."""
-        found, points = self._candidates.sought(self.record, state, reach, step, crossed)
+        """Return the contact points of a step; see `Candidates.sought`.
+
+        ``broken`` are bonds that broke in the same step: ends of their joints may bear.
+        """
+        record = self.record if broken is None else broken.before(self.record)
+        found, points = self._candidates.sought(record, state, reach, step, crossed)
         self._sought = found, crossed
         return points
+
+    def uncovers(self, sought: ContactPoints, broken: ContactPoints) -> bool:
+        """Whether more ends of joints bear once bonds are ``broken`` than were ``sought``."""
+        book = self.record.book
+        return len(book.bearing(broken)) > len(book.bearing(sought))
 
     def release(self, solved: ContactSolution, gone: Bools) -> float:
         """Let bonds (m,) give way before the next step, though the solution be no step.

@@ -72,6 +72,11 @@ class Partners:
         boundary = model.manifold.boundary
         self._region = model.manifold.element_region[boundary.element]
 
+    @property
+    def at_corners(self) -> bool:
+        """Whether bodies meet at corners, not over faces."""
+        return not self._face_points
+
     def forget(self) -> None:
         """Drop the list of neighbours and the surfaces of states: kept for speed alone."""
         self._neighbours = None

@@ -34,6 +34,9 @@ class JointBook:
     pair_kink
         (k,) whether it is of a corner and the other edge of a kink that the joint ends in, which
         bounds the corner's way unless bonds hold it.
+    pair_beyond
+        (k,) whether consistent terms hold the joint at points within it: its ends lie beyond them,
+        and bear as soon as one of its bonds broke. On its points alone it would turn over before.
     lost
         Points of joints that came apart; the search finds what touches there.
     left
@@ -46,6 +49,7 @@ class JointBook:
     pairs: Ints
     pair_joint: Ints
     pair_kink: Bools
+    pair_beyond: Bools
     lost: ContactPoints
     left: ContactPoints
 
@@ -56,15 +60,14 @@ class JointBook:
     def hides(self, found: Contacts, n: int) -> Bools:
         """Which contacts found among ``n`` edges followed joints carry already.
 
-        They are those at the ends of joints, but for the other edges of kinks beside joints that
-        do not hold, and those of corners that bonds hold on both sides: what such a corner may
-        enter only beside its neighbours, as a kink, it does not.
+        They are those at the ends of joints, but for ends beyond their points and the other edges
+        of kinks beside joints that do not hold, and those of corners that bonds hold on both sides:
+        what such a corner may enter only beside its neighbours, as a kink, it does not.
         """
         if not len(self.pairs):
             return np.zeros(len(found), dtype=bool)
-        carried = (
-            self.pairs[self._whole() | ~self.pair_kink] if self.pair_kink.any() else self.pairs
-        )
+        apart = self.pair_kink | self.pair_beyond
+        carried = self.pairs[self._whole() | ~apart] if apart.any() else self.pairs
         corner, hidden = found.kind != FACE, np.isin(found.key, carried)
         hidden[corner] |= self._bonded_corners(n)[found.vertex[corner]]
         return hidden
@@ -76,6 +79,18 @@ class JointBook:
     def _whole(self) -> Bools:
         """Which pairs (k,) are of joints that hold at all of their points."""
         return ~np.isin(self.pair_joint, self.joint[~self.points.bonded])
+
+    def bearing(self, contacts: ContactPoints) -> Ints:
+        """Return the joints whose ends bear, as bonds of theirs are broken among the contacts."""
+        gone = contacts.key[contacts.is_joint & ~contacts.bonded]
+        parted = self.joint[np.isin(self.points.key, gone)]
+        return np.intersect1d(parted, self.pair_joint[self.pair_beyond])
+
+    def without(self, contacts: ContactPoints) -> "JointBook":
+        """Return the book without the bonds that are broken among the contacts."""
+        gone = np.isin(self.points.key, contacts.key[contacts.is_joint & ~contacts.bonded])
+        history = {**self.points.history, "bonded": self.points.bonded & ~gone}
+        return replace(self, points=replace(self.points, history=history))
 
     def edges(self, n: int) -> Ints:
         """Pairs of edges that followed joints carry, ``a * n + b`` with ``a < b``, sorted."""
@@ -143,6 +158,7 @@ class JointBook:
             pairs=self.pairs[whole],
             pair_joint=self.pair_joint[whole],
             pair_kink=self.pair_kink[whole],
+            pair_beyond=self.pair_beyond[whole],
             lost=concatenate([before, given_up(left)]),
             left=left,
         )

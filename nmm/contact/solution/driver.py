@@ -124,6 +124,8 @@ class ContactSolver:
             contacts, stored = given_way(self._laws, contacts, overloaded, loaded, springs, limits)
             loss += stored
             gone = BrokenBonds(contacts, loss)
+            if request.uncovers is not None and request.uncovers(contacts):
+                return replace(found, broken=gone, uncovered=True)
             besides = more(contacts) if freed.any() else besides
 
     def _agreed(

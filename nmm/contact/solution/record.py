@@ -47,6 +47,9 @@ class ContactSolution:
     broken
         The contacts at the start of the last solution, with the bonds broken that broke before it
         in the same step; None where none did.
+    uncovered
+        Whether ends of joints bear since then, which were no contacts of the step: it is solved
+        again with them.
     between
         Work (J) that loads do within a step of a path beyond that of their mean at both ends: what
         bonds take that pass their peak between them, and friction that reaches its limit there.
@@ -68,6 +71,7 @@ class ContactSolution:
     between: float = 0.0
     missed: Floats | None = None
     broken: "BrokenBonds | None" = None
+    uncovered: bool = False
     ways: Callable[[], int] | None = None
 
     @MadeOnce
@@ -93,6 +97,10 @@ class BrokenBonds:
         """Return contacts of a new search for the same step, with these bonds broken."""
         joints = self.contacts.take(self.contacts.is_joint)
         return concatenate([joints, sought.take(~sought.is_joint)])
+
+    def before(self, record: "ContactRecord") -> "ContactRecord":
+        """Return the record of the step's start without these bonds."""
+        return with_parts(record, book=record.book.without(self.contacts))
 
 
 @dataclass(frozen=True)

@@ -106,23 +106,33 @@ class ContactSearch:
         return equations.inertia is not None and self._mover.kinematics.turns
 
     def candidates(
-        self, state: State, reach: float, step: float | None, crossed: "Crossed | None" = None
+        self,
+        state: State,
+        reach: float,
+        step: float | None,
+        crossed: "Crossed | None" = None,
+        broken: "BrokenBonds | None" = None,
     ) -> "ContactPoints":
         """Return the contact points of a step in which no point moves further than ``reach``."""
         with self._clock.phase("search"):
-            return self.contact.candidates(state, reach, step, crossed)
+            return self.contact.candidates(state, reach, step, crossed, broken)
 
-    def first(self, equations: Equations, reach: float, again: bool) -> SoughtContacts:
+    def first(
+        self, equations: Equations, reach: float, again: bool, broken: "BrokenBonds | None" = None
+    ) -> SoughtContacts:
         """Return the contacts of a step: those of its last iteration where it is solved ``again``.
 
-        Forces that bend move bodies by little from one iteration to the next.
+        Forces that bend move bodies by little from one iteration to the next. Bonds that are
+        ``broken`` broke in an attempt of the same step before.
         """
         state, last = equations.state, self._last
         if again and last is not None and last[0] is state and last[1].broken is None:
-            return replace(last[1], crossings=0, midpoints=0)
-        contacts = self.candidates(state, reach, equations.step)
+            found = replace(last[1], crossings=0, midpoints=0)
+            return found if broken is None else found.without(broken)
+        contacts = self.candidates(state, reach, equations.step, broken=broken)
         ahead = self._ahead(equations, contacts)
-        return SoughtContacts(reach, contacts, ahead, ahead)
+        found = SoughtContacts(reach, contacts, ahead, ahead)
+        return found if broken is None else found.without(broken)
 
     def keep(self, state: State, sought: SoughtContacts) -> None:
         """Keep the contacts of a step from a state for its next iteration."""
@@ -140,8 +150,11 @@ class ContactSearch:
 
         ``motion`` is None where bodies moved beyond the reach of the search.
         """
+        if solved.uncovered:
+            return self._anew(equations, sought, solved.broken)
         if motion is None:
-            return self._further(equations, sought, solved, FURTHER * result.motion)
+            reach = FURTHER * result.motion
+            return self._anew(equations, replace(sought, reach=reach), solved.broken)
         contact = self.contact
         missed = contact.overlooked(sought.contacts, motion)
         if missed is not None and sought.crossings < CROSSING_SOLUTIONS:
@@ -163,21 +176,20 @@ class ContactSearch:
         assert inertia is not None
         return misjudged(equations, inertia, self._current.model, end)
 
-    def _further(
-        self, equations: Equations, sought: SoughtContacts, solved: "ContactSolution", reach: float
+    def _anew(
+        self,
+        equations: Equations,
+        sought: SoughtContacts,
+        broken: "BrokenBonds | None" = None,
     ) -> SoughtContacts:
-        """Return the contacts within a larger ``reach`` (m); bonds that broke before stay broken.
+        """Return the same with the contacts of a new search; bonds that are ``broken`` stay so.
 
         None of them was judged by a solution beyond the reach of the search.
         """
-        found = self._anew(equations, replace(sought, reach=reach))
-        return found if solved.broken is None else found.without(solved.broken)
-
-    def _anew(self, equations: Equations, sought: SoughtContacts) -> SoughtContacts:
-        """Return the same with the contacts of a new search."""
-        given = equations.state, sought.reach, equations.step, sought.crossed
-        found = self.candidates(*given)
-        return replace(sought, contacts=found, midpoint=sought.ahead, forces=None, broken=None)
+        given = equations.state, sought.reach, equations.step, sought.crossed, broken
+        contacts = self.candidates(*given)
+        found = replace(sought, contacts=contacts, midpoint=sought.ahead, forces=None, broken=None)
+        return found if broken is None else found.without(broken)
 
     def _ahead(self, equations: Equations, contacts: "ContactPoints") -> State | None:
         """Return where bodies are half way if they go on turning; None where they hardly turn.

@@ -1,5 +1,6 @@
 """A step with contact: solved, and judged by how far bodies moved."""
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -85,8 +86,8 @@ class ContactStepSolver:
         state, partners = equations.state, self.search.contact.partners
         near, passes = self._near(equations, foreseen), 0
         again = foreseen is not None and near is None
-        sought, held = self.search.first(equations, reach, again), self._conditions(equations)
-        sought = sought if broken is None else sought.without(broken)
+        sought = self.search.first(equations, reach, again, broken)
+        held = self._conditions(equations)
         while True:
             solved = self._solve(equations, sought, breaking, held, near)
             passes += solved.passes
@@ -169,6 +170,7 @@ class ContactStepSolver:
             breaking=breaking,
             near=near,
             broken=sought.broken,
+            uncovers=partial(self.search.contact.uncovers, sought.contacts),
             time=equations.end.time,
             foreseen=None if foreseen is None else foreseen.increment,
             among=equations.among,

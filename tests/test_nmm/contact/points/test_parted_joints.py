@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import nmm
 from nmm.formulation import parse_formulation
 from nmm.frozen import with_parts
 from nmm.scene.read import parse_scene
@@ -95,3 +96,44 @@ def test_a_point_that_was_given_up_goes_on_telling_how_far_its_faces_are_apart()
     # Across the line between the faces, which halves their angle: the chord of the arc.
     assert book.lost.gap == pytest.approx(2 * APART * np.sin(0.15), rel=1e-12)
     assert book.broken == 1
+
+
+PUSHED = """
+plane = "strain"
+[materials.rock]
+young_modulus = "10 GPa"
+poisson_ratio = 0.2
+density = 2500
+[interfaces.joint]
+friction_angle = "60 deg"
+bonded = true
+cohesion = "10 kPa"
+tensile_strength = "10 kPa"
+[[blocks]]
+name = "ground"
+material = "rock"
+vertices = [[-2, -1], [3, -1], [3, 0], [-2, 0]]
+[[blocks]]
+name = "block"
+material = "rock"
+vertices = [[0, 0], [1, 0], [1, 2], [0, 2]]
+[[supports]]
+name = "ground"
+block = "ground"
+fix = ["x", "y"]
+[[loads]]
+name = "push"
+kind = "point"
+point = [0, 2]
+force = [%g, 0]
+[gravity]
+[contact]
+"""
+
+
+@pytest.mark.parametrize(("share", "status"), [(0.97, "converged"), (1.03, "collapsed")])
+def test_a_block_on_a_broken_joint_turns_over_about_its_corner(share: float, status: str) -> None:
+    """Its bond breaks at 0.6 of that load; its points are 0.577 of half of its width out."""
+    weight, width, height = 2500 * 9.81 * 2.0, 1.0, 2.0
+    push = weight * (width / 2) / height
+    assert nmm.run(nmm.parse_scene(PUSHED % (share * push))).summary.status == status
