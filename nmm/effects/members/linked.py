@@ -236,8 +236,8 @@ class Linked(Effect):
     def _lost(self, end: ChainAnswer) -> str:
         names = dict.fromkeys(self.members.names[at] for at in self.members.slip_owner[end.broken])
         return (
-            f"{self.name} {', '.join(names)}: the bond loses force faster than the bar unloads "
-            "(snap-back): no stable slips under this motion of its ends"
+            f"{self.name} {', '.join(names)}: no stable slips of its bond under this motion of its "
+            "ends, as where it loses force faster than the bar unloads (snap-back)"
         )
 
 
