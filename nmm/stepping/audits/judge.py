@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import replace
 
+from nmm.errors import SolveError
 from nmm.stepping.audits.balance import balance
 from nmm.stepping.audits.base import AuditFinding, EndedRun, Findings
 from nmm.stepping.audits.bodies import bodies
@@ -40,7 +41,20 @@ def audit(run: EndedRun) -> list[AuditFinding]:
     """Return every number that an audit has measured; nothing of a run without a step."""
     if not run.recorder.steps:
         return []
-    return [finding for one in AUDITS for finding in one(run)]
+    return [finding for one in AUDITS for finding in _made(one, run)]
+
+
+def _made(one: Callable[[EndedRun], Findings], run: EndedRun) -> Findings:
+    """Yield what an audit finds; that the last state lets it ask no more is a finding too."""
+    try:
+        yield from one(run)
+    except SolveError as fault:
+        yield AuditFinding(
+            "not_audited",
+            1.0,
+            f"the audits of {one.__name__.replace('_', ' ')} ended at the last state: {fault}",
+            "nothing says that they would have passed; end the run a step earlier",
+        )
 
 
 def judged(verdict: RunVerdict, findings: list[AuditFinding]) -> RunVerdict:

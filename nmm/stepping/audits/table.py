@@ -254,6 +254,12 @@ THRESHOLDS: dict[str, Threshold] = {
         None,
         "matter that yields, without `softening_energy`",
     ),
+    "not_audited": Threshold(
+        "1 where audits could not be made of the last state, as no forces of a part exist there",
+        0.5,
+        0.5,
+        "all",
+    ),
 }
 
 

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import nmm
+from nmm.errors import SolveError
+from nmm.stepping.audits import judge
 from nmm.stepping.audits.base import AuditFinding
 from nmm.stepping.audits.judge import judged
 from nmm.stepping.audits.table import THRESHOLDS
@@ -52,6 +54,18 @@ def test_a_free_block_that_turns_has_nothing_to_say():
     found = run(FREE, integrator={"type": "newmark", "step": 1e-3})
     assert (found.status, list(found.warnings)) == ("converged", [])
     assert {"momentum", "angular_momentum", "energy_made_in_run"} <= set(found.audits)
+
+
+def test_an_audit_that_cannot_be_made_loses_no_run_and_is_told(monkeypatch):
+    def cut_short(ended):
+        yield AuditFinding("momentum", 0.0, "", "")
+        raise SolveError("bar b: no stable slips")
+
+    monkeypatch.setattr(judge, "AUDITS", (cut_short,))
+    found = run(FREE, integrator={"type": "newmark", "step": 1e-3})
+    assert found.status == "unbalanced"
+    assert "cut short ended at the last state: bar b: no stable slips" in " ".join(found.warnings)
+    assert set(found.audits) == {"momentum", "not_audited"}
 
 
 @pytest.mark.parametrize("pull", [0.099, 0.2])
