@@ -4,9 +4,11 @@ from nmm.stepping.control.position import OnPath, PathEnd
 from nmm.stepping.drive.verdict import CONVERGED, FAILED, FAILURE, RunVerdict
 from nmm.stepping.step.trial import Attempt
 
-# Share of the largest load factor below which a load factor is none, and by which it must be below
-# the largest for a limit point to have been passed.
+# Share of the largest load factor below which a load factor is none.
 NOTHING = 1e-9
+# Share of the largest by which a load factor must be below it for a limit point to have been
+# passed: what balance leaves of a load on a plateau is less (audit `residual`).
+FALLS = 1e-6
 # Relative rounding of the sums by which a path comes to its end.
 ROUNDED_END = 1e-12
 
@@ -57,7 +59,7 @@ def no_event(at: OnPath) -> RunVerdict:
 
 def fell(at: OnPath) -> bool:
     """Whether the load has fallen from its largest; one that only pulls back has none."""
-    return at.peak > 0 and at.state.load_factor < at.peak * (1 - NOTHING)
+    return at.peak > 0 and at.state.load_factor < at.peak * (1 - FALLS)
 
 
 def _failure(at: OnPath, shown: str, why: str) -> RunVerdict:
