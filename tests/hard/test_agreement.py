@@ -163,8 +163,14 @@ def _same_as_memory(stored, memory):
     for name, column in memory.history.items():
         assert np.array_equal(column, stored.history[name], equal_nan=True)
     for one, other in zip(memory.frames, stored.frames, strict=True):
-        for name, value in vars(one).items():
-            assert np.array_equal(value, getattr(other, name)), name
+        held, read = vars(one).copy(), vars(other).copy()
+        fields, others = held.pop("fields"), read.pop("fields")
+        for name, value in held.items():
+            assert np.array_equal(value, read[name]), name
+        assert list(fields) == list(others)
+        for name, quantity in fields.items():
+            assert (quantity.on, quantity.unit) == (others[name].on, others[name].unit)
+            assert np.array_equal(quantity.values, others[name].values), name
 
 
 def _frames_fit(stored, tables, stop):

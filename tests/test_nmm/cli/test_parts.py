@@ -68,5 +68,5 @@ def test_parts_of_installed_packages_are_listed(monkeypatch, target):
     assert one.says == (
         "cannot be read: ModuleNotFoundError"
         if "no_such" in target
-        else "Von Mises stress of each element (Pa), exact in plane stress."
+        else "Von Mises stress of each element (Pa), the stress across the plane with it."
     )

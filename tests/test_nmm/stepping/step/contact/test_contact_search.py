@@ -18,7 +18,8 @@ def test_a_step_is_solved_again_for_crossings_a_fixed_number_of_times():
     search = ContactSearch(current, None, 1.0, Clock())
     statics = SimpleNamespace(step=None, state=None, inertia=None)
     sought, again = SoughtContacts(0.1, None, None, None), 0
-    while (found := search.again(statics, sought, None, None, motion="seen")) is not None:
+    solved = SimpleNamespace(uncovered=False)
+    while (found := search.again(statics, sought, solved, None, motion="seen")) is not None:
         sought, again = found, again + 1
         assert sought.crossings == again
         assert len(sought.crossed[0]) == again
