@@ -8,7 +8,7 @@ from nmm.stepping.step.trial import Attempt
 NOTHING = 1e-9
 # Share of the largest by which a load factor must be below it for a limit point to have been
 # passed: what balance leaves of a load on a plateau is less (audit `residual`).
-FALLS = 1e-6
+BELOW_PEAK = 1e-6
 # Relative rounding of the sums by which a path comes to its end.
 ROUNDED_END = 1e-12
 
@@ -59,7 +59,7 @@ def no_event(at: OnPath) -> RunVerdict:
 
 def fell(at: OnPath) -> bool:
     """Whether the load has fallen from its largest; one that only pulls back has none."""
-    return at.peak > 0 and at.state.load_factor < at.peak * (1 - FALLS)
+    return at.peak > 0 and at.state.load_factor < at.peak * (1 - BELOW_PEAK)
 
 
 def _failure(at: OnPath, shown: str, why: str) -> RunVerdict:
