@@ -82,15 +82,20 @@ class JointBook:
 
     def bearing(self, contacts: ContactPoints) -> Ints:
         """Return the joints whose ends bear, as bonds of theirs are broken among the contacts."""
-        gone = contacts.key[contacts.is_joint & ~contacts.bonded]
-        parted = self.joint[np.isin(self.points.key, gone)]
-        return np.intersect1d(parted, self.pair_joint[self.pair_beyond])
+        return np.intersect1d(
+            self.joint[self._broken_among(contacts)], self.pair_joint[self.pair_beyond]
+        )
 
     def without(self, contacts: ContactPoints) -> "JointBook":
         """Return the book without the bonds that are broken among the contacts."""
-        gone = np.isin(self.points.key, contacts.key[contacts.is_joint & ~contacts.bonded])
-        history = {**self.points.history, "bonded": self.points.bonded & ~gone}
+        still = self.points.bonded & ~self._broken_among(contacts)
+        history = {**self.points.history, "bonded": still}
         return replace(self, points=replace(self.points, history=history))
+
+    def _broken_among(self, contacts: ContactPoints) -> Bools:
+        """Which points (m,) are without a bond among contacts of a step."""
+        gone = contacts.is_joint & ~contacts.bonded
+        return np.isin(self.points.key, contacts.key[gone])
 
     def edges(self, n: int) -> Ints:
         """Pairs of edges that followed joints carry, ``a * n + b`` with ``a < b``, sorted."""
