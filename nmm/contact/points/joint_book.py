@@ -66,19 +66,12 @@ class JointBook:
         """
         if not len(self.pairs):
             return np.zeros(len(found), dtype=bool)
-        apart = self.pair_kink | self.pair_beyond
-        carried = self.pairs[self._whole() | ~apart] if apart.any() else self.pairs
+        whole = ~np.isin(self.pair_joint, self.joint[~self.points.bonded])
+        carried = self.pairs[whole | ~(self.pair_kink | self.pair_beyond)]
         corner, hidden = found.kind != FACE, np.isin(found.key, carried)
-        hidden[corner] |= self._bonded_corners(n)[found.vertex[corner]]
+        bonded = np.bincount(self.pairs[whole] // n, minlength=n) > 1
+        hidden[corner] |= bonded[found.vertex[corner]]
         return hidden
-
-    def _bonded_corners(self, n: int) -> Bools:
-        """Which vertices (n,) are ends of two joints that hold at all of their points."""
-        return np.bincount(self.pairs[self._whole()] // n, minlength=n) > 1
-
-    def _whole(self) -> Bools:
-        """Which pairs (k,) are of joints that hold at all of their points."""
-        return ~np.isin(self.pair_joint, self.joint[~self.points.bonded])
 
     def bearing(self, contacts: ContactPoints) -> Ints:
         """Return the joints whose ends bear, as bonds of theirs are broken among the contacts."""

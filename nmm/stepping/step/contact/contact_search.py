@@ -66,8 +66,10 @@ class SoughtContacts:
     crossings: int = 0
     midpoints: int = 0
 
-    def without(self, broken: "BrokenBonds") -> "SoughtContacts":
-        """Return what was sought without bonds that broke in the same step."""
+    def without(self, broken: "BrokenBonds | None") -> "SoughtContacts":
+        """Return what was sought without bonds that broke in the same step, if any did."""
+        if broken is None:
+            return self
         return replace(self, contacts=broken.among(self.contacts), broken=broken)
 
 
@@ -127,12 +129,10 @@ class ContactSearch:
         """
         state, last = equations.state, self._last
         if again and last is not None and last[0] is state and last[1].broken is None:
-            found = replace(last[1], crossings=0, midpoints=0)
-            return found if broken is None else found.without(broken)
+            return replace(last[1], crossings=0, midpoints=0).without(broken)
         contacts = self.candidates(state, reach, equations.step, broken=broken)
         ahead = self._ahead(equations, contacts)
-        found = SoughtContacts(reach, contacts, ahead, ahead)
-        return found if broken is None else found.without(broken)
+        return SoughtContacts(reach, contacts, ahead, ahead).without(broken)
 
     def keep(self, state: State, sought: SoughtContacts) -> None:
         """Keep the contacts of a step from a state for its next iteration."""
@@ -189,7 +189,7 @@ class ContactSearch:
         given = equations.state, sought.reach, equations.step, sought.crossed, broken
         contacts = self.candidates(*given)
         found = replace(sought, contacts=contacts, midpoint=sought.ahead, forces=None, broken=None)
-        return found if broken is None else found.without(broken)
+        return found.without(broken)
 
     def _ahead(self, equations: Equations, contacts: "ContactPoints") -> State | None:
         """Return where bodies are half way if they go on turning; None where they hardly turn.
