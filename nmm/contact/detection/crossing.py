@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from covers.concatenate import some_of
 from integration.arrays import Bools, Floats, Ints
 from integration.plane_vectors import cross
 from integration.ragged import within
@@ -35,7 +36,7 @@ class Crossings:
 
     def take(self, chosen: Bools) -> Crossings:
         """Return some of them (m,)."""
-        return Crossings(self.vertex[chosen], self.edge[chosen], self.fraction[chosen])
+        return some_of(self, chosen)
 
     @property
     def free_fraction(self) -> float:

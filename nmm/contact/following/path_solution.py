@@ -161,8 +161,8 @@ def _problem(
     through = ContactRows(rows.normal[free], rows.tangent[free], rows.direction[free])
     stiffest = float(np.concatenate(stiff[:2]).max(initial=0.0))
     rounding = float(np.finfo(float).eps) * stiffest * float(some.length.sum())
-    posed = PathProblem(matrix, force, through, some.gap, some.slip, law, scale, rounding)
-    return replace(posed, stiffest=stiffest)
+    given = matrix, force, through, some.gap, some.slip, law, scale, rounding
+    return PathProblem(*given, stiffest=stiffest)
 
 
 def _answer(

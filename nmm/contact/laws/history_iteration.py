@@ -129,11 +129,21 @@ class HistoryIteration:
         following = np.split(chosen, ends[:-1])
         history = dict(now)
         for (name, at), values in zip(self._index.items(), following, strict=True):
-            least = self.start.history[name][at] if columns[name].grows else -np.inf
             history[name] = now[name].copy()
-            history[name][at] = np.clip(size[name] * values, least, columns[name].most)
+            most = columns[name].most
+            history[name][at] = np.clip(size[name] * values, self._least[name], most)
         self.contacts = replace(self.contacts, history=history)
         self.response = self._laws.response(self.contacts, self.springs[0])
+
+    @MadeOnce
+    def _least(self) -> dict[str, Floats]:
+        """Return the least values of internal variables: of those that grow, at the start."""
+        return {
+            name: self.start.history[name][at]
+            if self._laws.evolving[name].grows
+            else np.full(len(at), -np.inf)
+            for name, at in self._index.items()
+        }
 
     def _gives_way(self, chosen: Floats, target: Floats, size: dict[str, float]) -> bool:
         """Whether the answer that acceleration aims at lies before the start of the step.
@@ -142,15 +152,7 @@ class HistoryIteration:
         answer only behind it, at less than it has lost: it gives way as far as its own changes
         lead, to where they shrink again or all of it is lost.
         """
-        columns = self._laws.evolving
-        least = np.concatenate(
-            [
-                self.start.history[name][at] / size[name]
-                if columns[name].grows
-                else np.full(len(at), -np.inf)
-                for name, at in self._index.items()
-            ]
-        )
+        least = np.concatenate([self._least[name] / size[name] for name in self._index])
         behind = (chosen < least) & (target > least + UNCHANGED)
         self._returned += bool(behind.any())
         return self._returned > RETURNED and bool(behind.any())
