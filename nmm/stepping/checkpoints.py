@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar, cast
 
+from nmm.assembly.matter import Matter
 from nmm.results.storage.values import Arrays
 from nmm.stepping.drive.in_time import InTime
 from nmm.stepping.drive.phases import RunPosition
@@ -88,6 +89,7 @@ class Checkpoints:
         """Take up a run where it stood."""
         self.stepper.carry(state.carried)
         self.recorder.totals, self.recorder.zero = state.totals, state.zero
+        self.recorder.before = state.before
         if state.stages is not None or state.carried.geometry is not None:
             setup = self.stepper.discretisation.setup
             found = monitors(setup, all_there=False, zero=state.zero.state)
@@ -97,7 +99,9 @@ class Checkpoints:
         return state.at
 
     def _stored(self, at: At) -> At:
-        recorded = self.recorder.totals, self.stages, self.recorder.zero
+        flows = isinstance(self.stepper.model.matter, Matter)
+        before = self.recorder.before if flows else None
+        recorded = self.recorder.totals, self.stages, self.recorder.zero, before
         arrays = RunState(at, self.stepper.carried, *recorded).to_arrays()
         self.store(arrays)
         return cast(At, self.go_on(RunState.from_arrays(arrays)))

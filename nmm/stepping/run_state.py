@@ -12,6 +12,7 @@ from nmm.stepping.step.carried import CarriedState
 
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
+    from nmm.assembly.state import State
     from nmm.contact.points.contact_points import ContactPoints
     from nmm.stepping.drive.phases import RunPosition
 
@@ -32,6 +33,8 @@ class RunState:
         Those that were entered; None of a run without stages.
     zero
         What displacements count from.
+    before
+        Where the last step began, in scenes with matter that flows: an audit asks for it.
     """
 
     at: "RunPosition"
@@ -39,6 +42,7 @@ class RunState:
     totals: Totals
     stages: StagesSoFar | None = None
     zero: ZeroDisplacement = field(default_factory=ZeroDisplacement)
+    before: "State | None" = None
 
     def to_arrays(self) -> Arrays:
         """Return it as arrays by name."""

@@ -1,16 +1,22 @@
 """Runs that are stopped in mid-run and gone on with, as after Ctrl-C."""
 
+import json
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 import nmm
 from nmm.formulation import Formulation
 from nmm.progress import Progress
+from nmm.results.frame import Frame
 from nmm.scene.model import Scene
 from nmm.stepping.run import Run
 from nmm.testing.claims import claim
+
+MEASURED = ("seconds", "effect_seconds", "peak_memory")
+"""Entries of a summary that no two runs share."""
 
 
 class StoppedError(Exception):
@@ -91,16 +97,25 @@ def check_resumed(whole: Run, resumed: Run) -> None:
     AssertionError
         Naming what differs.
     """
-    for name in ("status", "sentence", "changes"):
-        same = getattr(resumed.summary, name) == getattr(whole.summary, name)
-        claim(same, f"resumed: another {name}")
+    one, other = (json.loads(run.summary.to_json()) for run in (whole, resumed))
+    claim(one.keys() == other.keys(), "resumed: other entries of the summary")
+    for name in sorted(set(one) - set(MEASURED)):
+        claim(one[name] == other[name], f"resumed: another {name}: {other[name]}, not {one[name]}")
     claim(np.array_equal(whole.displacement, resumed.displacement), "resumed: other displacements")
     claim(list(whole.history) == list(resumed.history), "resumed: other columns of the history")
     columns = {
         f"column {name}": (column, resumed.history[name]) for name, column in whole.history.items()
     }
-    last, end = whole.frames[-1].fields, resumed.frames[-1].fields
-    claim(list(last) == list(end), "resumed: other fields of the last frame")
-    columns |= {f"field {name}": (field.values, end[name].values) for name, field in last.items()}
-    for name, (one, other) in columns.items():
-        claim(np.array_equal(one, other, equal_nan=True), f"resumed: another {name}")
+    claim(len(whole.frames) == len(resumed.frames), "resumed: another number of frames")
+    for frame, again in zip(whole.frames, resumed.frames, strict=True):
+        kept, found = _arrays(frame), _arrays(again)
+        claim(list(kept) == list(found), f"resumed: other fields of frame {frame.index}")
+        columns |= {f"{name} of frame {frame.index}": (kept[name], found[name]) for name in kept}
+    for name, (before, after) in columns.items():
+        claim(np.array_equal(before, after, equal_nan=True), f"resumed: another {name}")
+
+
+def _arrays(frame: Frame) -> dict[str, Any]:
+    """Return all that a frame holds by name, but for what is text."""
+    own = {name: value for name, value in vars(frame).items() if name not in ("fields", "stage")}
+    return own | {f"field {name}": field.values for name, field in frame.fields.items()}

@@ -5,6 +5,7 @@ import re
 import pytest
 
 import nmm
+from nmm.testing.resumed.stopping import check_resumed
 from nmm.testing.scenes import biaxial_test
 
 SMALL = '[formulation.rotation]\nupdate = "small"\n'
@@ -36,3 +37,13 @@ def test_associated_flow_is_not():
 def test_soil_that_stays_elastic_is_not_asked():
     text = biaxial_test(0, SMALL).replace("-0.02]", "-0.0001]")
     assert "ellipticity" not in nmm.run(nmm.parse_scene(text)).summary.audits
+
+
+def test_a_run_that_goes_on_from_its_last_step_is_asked_too(tmp_path):
+    """Its steps are spent: nothing is left to solve, and where the last one began is asked."""
+    stores = "[output]\ncheckpoint = { every_steps = 1 }\n[formulation.loading]\nmax_steps = 5\n"
+    scene = nmm.parse_scene(biaxial_test(0, SMALL + stores))
+    whole = nmm.run(scene, out=tmp_path / "run")
+    assert whole.summary.status == "budget_spent"
+    assert whole.summary.audits["ellipticity"] > 0.01
+    check_resumed(whole, nmm.resume(tmp_path / "run"))
