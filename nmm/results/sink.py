@@ -13,6 +13,15 @@ from nmm.results.summary import Summary
 RESETS = "displacement_resets"
 """Column of the history: how often displacements were set to zero; only where they were."""
 
+EVERY_STEP = ("time", "load_factor", "step", "passes", "residual")
+"""Columns that every step gives; a run that ends before its first step has these, empty."""
+
+
+def columns_of(rows: Sequence[Mapping[str, float]]) -> dict[str, Floats]:
+    """Return the columns of a history, one value a row; one that a row does not give is nan."""
+    names = dict.fromkeys(name for row in rows for name in row) or dict.fromkeys(EVERY_STEP)
+    return {name: np.array([row.get(name, np.nan) for row in rows]) for name in names}
+
 
 class Sink(Protocol):
     """Receiver of a run: `begin`, then frames and rows as they come, then `finish`."""
@@ -77,5 +86,4 @@ class MemorySink:
     @property
     def history(self) -> dict[str, Floats]:
         """Columns of the history; a value that a step did not give is nan."""
-        names = dict.fromkeys(name for row in self.rows for name in row)
-        return {name: np.array([row.get(name, np.nan) for row in self.rows]) for name in names}
+        return columns_of(self.rows)

@@ -489,7 +489,7 @@ def test_a_pipe_or_a_device_in_the_place_of_a_file_is_told_and_never_waited_for(
         (folder / name).unlink(missing_ok=True)
         put(folder / name)
         stored = read(folder)
-        assert stored.history == {} or list(stored.history["step"]) == [0, 1, 2, 3]
+        assert list(stored.history["step"]) in ([], [0, 1, 2, 3])
         assert name == ".lock" or any(f"{name}: cannot be read" in one for one in stored.faults)
     with suppress(StorageError):  # a run there is refused, or takes its place
         RunFolder(folder, scene="a", formulation="b").close()

@@ -13,6 +13,7 @@ from integration.arrays import Floats
 from nmm.errors import DamageError, NmmError, NmmWarning, StorageError
 from nmm.plain_file import plain
 from nmm.results.frame import Topology
+from nmm.results.sink import columns_of
 from nmm.results.storage import files
 from nmm.results.storage.history import read_history
 from nmm.results.storage.lock import owner
@@ -147,16 +148,16 @@ class _Reader:
         return text
 
     def history(self) -> dict[str, Floats]:
-        """Return the columns of the history; a run killed before its first step has none."""
+        """Return the columns of the history, empty ones of a run without a step."""
         path = self.folder / files.HISTORY
         if not path.exists():
-            return {}
+            return columns_of([])
         text = self.text(files.HISTORY)
         columns, faults = read_history(path, text)
         self.faults += faults
         if not columns and not faults:
             self._fault(path, "damaged, its first line is cut off", "the history is lost")
-        return columns
+        return columns or columns_of([])
 
     def summary(self, history: dict[str, Floats]) -> Summary:
         """Return the summary; "stopped" for one that says "running" though no process does."""

@@ -17,7 +17,8 @@ def ablation_table(found: Ablation) -> list[str]:
     heads = ["without", *found.quantities, "seconds", "saved", "ends"]
     lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
     whole = [f"{0 if abs(value) <= least else value:.6g}" for _, value, least in _whole(found)]
-    lines.append(_line([found.whole.name, *whole, f"{found.whole.seconds:.3g}", "", ""]))
+    seconds = f"{found.whole.seconds:.3g}"
+    lines.append(_line([found.whole.name, *whole, seconds, "", found.whole.verdict]))
     for row in found.rows:
         changes = [_share(change) for change in found.changes(row)]
         seconds = "" if row.seconds != row.seconds else f"{row.seconds:.3g}"

@@ -56,7 +56,7 @@ def quantity(run: Measured, name: str) -> float:
 
 
 def _column(run: Measured, name: str) -> Floats:
-    if not run.history:
+    if not any(len(column) for column in run.history.values()):
         return np.array([math.nan])  # no step was accepted
     if name not in run.history:
         known = ", ".join(run.history)

@@ -19,6 +19,7 @@ def draw(study: Comparison, path: Path) -> None:
 
     made, image = study.made, study.raster.image
     x, y = curve_columns([run for _, run, _ in made])
+    none = np.zeros(0)  # of a run that ended before its first step
     shown = [
         DrawnRun(
             one.name,
@@ -29,8 +30,8 @@ def draw(study: Comparison, path: Path) -> None:
             last_frame(done).contact_position,
             contact_vectors(last_frame(done)),
             cracks(done),
-            done.history[x],
-            done.history[y],
+            done.history.get(x, none),
+            done.history.get(y, none),
         )
         for one, done, values in made
     ]
@@ -58,13 +59,16 @@ def last_frame(run: Run) -> Frame:
 
 
 def curve_columns(runs: Sequence[Run]) -> tuple[str, str]:
-    """Return what grows in the first run, and the monitor of all that moved most in it.
+    """Return what grows in the first run with a step, and the monitor that moved most in it.
 
     Where scenes of one case have no monitor in common it is the elastic energy.
     """
-    known = runs[0].history
+    histories = [run.history for run in runs if len(run.history["step"])]
+    if not histories:
+        return "time", "strain_energy"
+    known = histories[0]
     clock = "load_factor" if np.ptp(known["load_factor"]) > 0 else "time"
-    common = set(known).intersection(*(one.history for one in runs))
+    common = set(known).intersection(*histories)
     moved = [name for name in known if name in common and name.startswith("monitor:")]
     most = max(moved, key=lambda name: float(np.nanmax(np.abs(known[name]))), default="")
     return clock, most or "strain_energy"

@@ -62,8 +62,8 @@ def _energy(one: Compared) -> float | None:
 
 
 def _largest_load(one: Compared) -> float | None:
-    factors = None if one.run is None else one.run.history.get("load_factor")
-    return None if factors is None or not np.ptp(factors) else float(np.nanmax(factors))
+    factors = np.zeros(0) if one.run is None else one.run.history["load_factor"]
+    return float(np.nanmax(factors)) if len(factors) and np.ptp(factors) else None
 
 
 def _released(one: Compared) -> float | None:

@@ -124,7 +124,7 @@ def _halved(scene: Document) -> Checks:
     for part in (1, 2, 4):
         found = ran(with_parts(scene, {"integrator.step": step / part}))
         checks |= ended(found)
-        if not found.run.history:
+        if not found.run.summary.steps:
             return checks
         ways.append(monitored(found.run)["top"])
     first, second = (float(np.linalg.norm(a - b)) for a, b in pairwise(ways))

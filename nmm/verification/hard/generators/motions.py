@@ -177,7 +177,7 @@ def _convex(random: np.random.Generator, radius: float) -> Floats:
 def _judge(scene: Document) -> Checks:
     found = ran(scene)
     checks = ended(found)
-    if not found.run.history or found.run.summary.status != "converged":
+    if not found.run.summary.steps or found.run.summary.status != "converged":
         return checks
     checks |= energy_checks(found) | body_checks(found) | momentum_checks(scene, found)
     checks |= _records(scene, found)
@@ -200,7 +200,7 @@ def _judge_soft(scene: Document) -> Checks:
     """What bends far gains energy in coarse steps: the run says so, and nothing else is off."""
     found = ran(scene)
     run = found.run
-    if not run.history or run.summary.status not in ("converged", "unbalanced"):
+    if not run.summary.steps or run.summary.status not in ("converged", "unbalanced"):
         return ended(found)
     energy, rises = energies(found), energy_checks(found)
     climb = float((energy - np.minimum.accumulate(energy)).max() / turnover(found))

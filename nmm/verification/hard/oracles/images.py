@@ -104,8 +104,8 @@ def seen_alike(scene: Document, ways: tuple[str, ...], allowed: Mapping[str, flo
     what rounding leaves of them.
     """
     first = ran(scene).run
-    checks: Checks = {"ran": holds(bool(first.history), first.summary.sentence)}
-    for way in ways if first.history else ():
+    checks: Checks = {"ran": holds(bool(first.summary.steps), first.summary.sentence)}
+    for way in ways if first.summary.steps else ():
         image = IMAGES[way](scene)
         to = FAR_TO if np.any(image.by) else HELD_TO
         checks[way] = compared(first, ran(image.scene).run, image, allowed.get(way, to))

@@ -189,7 +189,7 @@ def moving(scene: Document) -> Checks:
     """All that must hold of bodies that move and touch under weight or none."""
     found = ran(scene)
     checks = ended(found)
-    if found.run.history:
+    if found.run.summary.steps:
         checks |= energy_checks(found) | body_checks(found)
     return checks
 
@@ -198,6 +198,6 @@ def flying(scene: Document) -> Checks:
     """`moving` for bodies that nothing holds and no load acts on: momentum too."""
     found = ran(scene)
     checks = ended(found)
-    if found.run.history:
+    if found.run.summary.steps:
         checks |= energy_checks(found) | body_checks(found) | momentum_checks(scene, found)
     return checks

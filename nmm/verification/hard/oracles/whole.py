@@ -143,7 +143,7 @@ def _springy(scene: Document) -> bool:
 
 def _records(run: "Run") -> Checks:
     """Summary, history and frames say the same."""
-    if not run.history:
+    if not run.summary.steps:
         return {}
     last, rows = run.frames[-1], float(len(run.history["step"]))
     checks = {"steps of the summary": Check(float(run.summary.steps), rows, 0.0, "rows")}

@@ -50,6 +50,16 @@ def test_a_run_reads_back_exactly_as_written(tmp_path, memory_run):
     assert set(stored.topologies[0].element_material) == {0, 1}
 
 
+def test_a_run_without_a_step_has_the_columns_of_every_step_and_no_rows(tmp_path, memory_run):
+    folder, memory = RunFolder(tmp_path / "run", scene="a = 1\n", formulation=""), MemorySink()
+    for sink in (folder, memory):
+        sink.begin(memory_run.topologies[0])
+        sink.finish(Summary(status="budget_spent"))
+    for history in (memory.history, read_run(tmp_path / "run").history):
+        assert {"time", "load_factor", "step", "passes", "residual"} == set(history)
+        assert all(column.shape == (0,) for column in history.values())
+
+
 def test_the_same_run_gives_the_same_bytes(tmp_path, memory_run):
     for name in ("one", "two"):
         fill(RunFolder(tmp_path / name), memory_run)
@@ -68,7 +78,8 @@ def test_the_summary_says_running_until_the_end(tmp_path, memory_run):
     assert json.loads((tmp_path / "run/summary.json").read_text())["status"] == "running"
     stored = read_run(tmp_path / "run")
     assert stored.summary.scene_hash == "ff"
-    assert (len(stored.frames), stored.history, stored.topologies) == (0, {}, ())
+    steps = len(stored.history["step"])
+    assert (len(stored.frames), steps, stored.topologies) == (0, 0, ())
     fill(folder, memory_run)
     assert read_run(tmp_path / "run").summary.status == "failed_load"
 

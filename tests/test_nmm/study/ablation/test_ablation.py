@@ -112,6 +112,7 @@ def test_what_needs_inertia_goes_with_it_and_the_rest_stands_under_its_loads():
 def test_every_effect_of_the_scene_has_a_line_of_the_table(thrown):
     lines = ablation_table(thrown)
     assert len(lines) == 2 + 1 + len(thrown.rows)
+    assert lines[2].endswith("| converged |")  # the whole scene
     widths = {line.count("|") for line in lines}
     assert widths == {2 + 1 + 2 + 3 - 1}
 

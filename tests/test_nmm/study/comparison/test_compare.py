@@ -131,3 +131,13 @@ def test_a_scene_that_lies_elsewhere_is_a_fault_of_the_page(bar):
     cases = [StudyCase(name, one, KINDS["DDA"]) for name, one in (("here", bar), ("far", far))]
     page = comparison_page(compare_cases(cases, memory=False), "compare.png")
     assert "- far: no block lies at the points that are compared: expected a scene of" in page
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_run_that_ends_before_its_first_step_is_a_column_beside_the_others(bar, turned, tmp_path):
+    spent = nmm.Formulation.model_validate({"loading": {"budget": 1e-9}})
+    cases = [StudyCase("none", bar, spent), StudyCase("DDA", bar, KINDS["DDA"])]
+    study = compare_cases(cases[::-1] if turned else cases, memory=False)
+    write_comparison(study, tmp_path)
+    ends = ("converged", "budget_spent") if turned else ("budget_spent", "converged")
+    assert f"| verdict | {' | '.join(ends)} |" in (tmp_path / "compare.md").read_text()

@@ -86,7 +86,7 @@ def _bar(cover: Document, away: float) -> Document:
 def _uniform(scene: Document) -> Checks:
     found = ran(scene)
     checks = ended(found)
-    if not found.run.history:
+    if not found.run.summary.steps:
         return checks
     exact = laid(scene["formulation"]["cover"], BOX).weight_degree is not None
     # Weights that are no polynomials are not integrated exactly: the patch test to 1e-2 only.

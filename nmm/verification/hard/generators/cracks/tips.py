@@ -72,7 +72,7 @@ class _Intensity:
 
         found = ran(scene)
         checks = ended(found)
-        if not found.run.history:
+        if not found.run.summary.steps:
             return checks
         model = found.run.stepper.model
         kappa = 3 - 4 * 0.3
@@ -140,7 +140,7 @@ def _torn(cover: Document, gap: float) -> Document:
 def _held(scene: Document) -> Checks:
     found: Ran = ran(scene)
     checks = ended(found)
-    if not found.run.history:
+    if not found.run.summary.steps:
         return checks
     h = found.run.history
     pull = float(h["reaction:high:y"][-1])
