@@ -21,6 +21,7 @@ PHASES = {
     "solve": "#1d4e89",
     "update": "#2a7f62",
     "reports": "#7fb069",
+    "audits": "#4d9de0",
     "rest": "#c9c5ba",
 }
 EFFECTS = {
@@ -43,8 +44,13 @@ VISIBLE = 0.5  # percent; parts that are nowhere more are not drawn
 
 
 def by_phase(axes: "Axes", phases: Mapping[str, Seconds]) -> None:
-    """Draw seconds by phase, of runs by name, as shares of each run."""
-    _bars(axes, phases, PHASES, "by phase")
+    """Draw seconds by phase, of runs by name, as shares; phases without a colour are the rest."""
+    spent = {}
+    for name, one in phases.items():
+        known = {phase: seconds for phase, seconds in one.items() if phase in PHASES}
+        others = sum(one.values()) - sum(known.values())
+        spent[name] = {**known, "rest": known.get("rest", 0.0) + others}
+    _bars(axes, spent, PHASES, "by phase")
 
 
 def by_effect(axes: "Axes", phases: Mapping[str, Seconds], effects: Mapping[str, Seconds]) -> None:

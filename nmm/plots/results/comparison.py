@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 BETWEEN = 0.3  # inches between rows, for ticks and a title
+TICK = 0.2  # inches between numbers beside a picture
 
 
 def comparison(
@@ -93,11 +94,15 @@ def _panels(
 
 def _label_places(rows: "Sequence[Sequence[Axes]]") -> None:
     """Say where things are: coordinates left of the first and below the last picture drawn."""
+    wide = (rows[0][0].figure.figure.get_figwidth() - BESIDE) / len(rows[0])
     for number, row in enumerate(rows):
         for column, axes in enumerate(row):
             last, first = number == len(rows) - 1, column == (not row[0].axison)
             axes.tick_params(labelsize=SMALL - 1.5, labelbottom=last, labelleft=first)
-            axes.locator_params(nbins=4)
+            axes.locator_params(axis="x", nbins=4)
+            (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+            tall = wide * (high - low) / (right - left)
+            axes.locator_params(axis="y", nbins=int(np.clip(tall / TICK, 1, 4)))
             axes.set_xlabel("x  (m)" if last else "", fontsize=SMALL - 1)
             axes.set_ylabel("y  (m)" if not column else "", fontsize=SMALL - 1)
             for side in ("top", "right"):

@@ -49,7 +49,7 @@ def cost_page(study: CostStudy, picture: str) -> str:
         *_section("Observed orders", _orders(study)),
         *_section("Where the runs go", _limits(study)),
         *_section("Failed runs", _failed(study)),
-        *_section("Time by effect", _effects(study)),
+        *_section("Time by effect, wall clock", _effects(study)),
         *_section("Cost at equal error", level_table(study)),
         *_section("How it was measured", _conditions(study)),
     ]

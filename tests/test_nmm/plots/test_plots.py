@@ -1,10 +1,13 @@
 """Pictures: what they hold, by the artists drawn and the numbers behind them."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
 import shapely
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 
 import nmm
 from integration.polygons import Polygons
@@ -13,9 +16,12 @@ from nmm.contact.problem.contact_state import ContactState
 from nmm.errors import NmmError
 from nmm.plots.edges import cracks, opened_on_several, outlines, segments
 from nmm.plots.results.broken import broken_parts, edge_parts
+from nmm.plots.results.compared import DrawnRun
+from nmm.plots.results.comparison import comparison
 from nmm.plots.results.deformed import BROKEN, visible
 from nmm.plots.results.stress import measure, scale_end
 from nmm.plots.shapes import fill
+from nmm.plots.time_shares import by_phase
 from nmm.plots.units import prefixed, words_of
 from nmm.results import MemorySink, Topology
 from nmm.verification import text
@@ -379,3 +385,26 @@ def test_a_block_that_is_held_as_a_whole_is_hatched(memory_run):
     scene = parse_scene('plane = "strain"\n' + matter + held + support)
     hatched = [one for one in plots.blocks(memory_run, scene=scene).patches if one.get_hatch()]
     assert [one.get_xy()[:3].tolist() for one in hatched] == [[[0, 0], [1, 0], [1, 1]]]
+
+
+def test_bars_of_phases_hold_all_of_the_time():
+    """Audits, a third of a small run, were left out of its bar; so were phases without a colour."""
+    axes = Figure().subplots()
+    by_phase(axes, {"run": {"covers": 1.0, "audits": 2.0, "bound": 3.0, "rest": 4.0}})
+    widths = [bar.get_width() for bar in axes.patches]
+    assert sum(widths) == pytest.approx(100.0)
+    assert max(widths) == pytest.approx(70.0)  # the rest, with what is seldom
+
+
+def test_numbers_beside_a_flat_picture_do_not_cover_each_other():
+    rng = np.random.default_rng(0)
+    none = np.zeros((0, 2))
+    runs = [
+        DrawnRun(name, "DDA", "block", *rng.random((2, 20, 200)), none, none, [], none, none)
+        for name in ("one", "other")
+    ]
+    panels = comparison(runs, [], np.array([[0.0, 0.0], [2.0, 0.2]]))
+    FigureCanvasAgg(panels[0].figure.figure).draw()
+    boxes = [tick.label1.get_window_extent() for tick in panels[0].yaxis.get_major_ticks()]
+    seen = sorted((box.y0, box.y1) for box in boxes)
+    assert all(low[1] < high[0] for low, high in pairwise(seen))
