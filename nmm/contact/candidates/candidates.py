@@ -13,7 +13,6 @@ from nmm.contact.candidates.held_back import Crossed, held_back, joined, pushing
 from nmm.contact.candidates.partners import Partners
 from nmm.contact.detection.contacts import Contacts, follow
 from nmm.contact.detection.crossing import Motion, crossings_in, over_seams
-from nmm.contact.detection.kinks import from_below
 from nmm.contact.detection.surface import pair_key
 from nmm.contact.detection.tolerances import FLUSH
 from nmm.contact.laws.contact_laws import ContactLaws
@@ -80,20 +79,13 @@ class Candidates:
         in statics friction that they had would choose another of its many states.
         """
         joints = self.joints(record.book, state)
-        stands = None
-        if step is None:
-            stands = self.partners.standing_in_kinks(state, reach, record.book)
-            crossed = joined(stands, crossed)
-        else:
+        if step is not None:
             crossed = joined(record.crossed, crossed)
         known = record.known
         # Springs that a stress had closed push while their sides stand apart by the reference.
         apart = 0.0 if known is None else float(largest(known.reference, initial=0.0))
         within = 2 * reach + apart
         found = self.partners.search(state, within, step, record.book, record.found, crossed)
-        if stands is not None:
-            below = from_below(self.partners.surface(state), found, stands)
-            found = found.take(~below) if below.any() else found
         if record.known is not None and not self._laws.stiff and continues(record.found, found):
             points = continued(record.known, found)
             points = counted_on(self._geometry.measured(points, state), self._ahead)

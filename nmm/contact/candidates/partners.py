@@ -10,7 +10,7 @@ from nmm.assembly.state import State
 from nmm.contact.candidates.pairs import GLUED, MISSING, Pairs, no_interface
 from nmm.contact.detection.contacts import Contacts
 from nmm.contact.detection.crossing import Motion, crossings_in, motion_of, over_seams
-from nmm.contact.detection.kinks import in_kinks, standing
+from nmm.contact.detection.kinks import in_kinks
 from nmm.contact.detection.narrow_phase import find_contacts, with_pairs
 from nmm.contact.detection.neighbour_list import NeighbourList
 from nmm.contact.detection.surface import Surface
@@ -142,18 +142,6 @@ class Partners:
         """Return pairs in kinks of two bodies; see `nmm.contact.detection.kinks.in_kinks`."""
         surface = self.surface(state)
         return self._meeting(surface, in_kinks(surface, *self._near(surface, reach), reach), book)
-
-    def standing_in_kinks(
-        self, state: State, reach: float, book: JointBook
-    ) -> tuple[Ints, Ints] | None:
-        """Return pairs that `nmm.contact.detection.kinks.standing` finds.
-
-        None over faces, and between glued pieces, whose corners their neighbours hold.
-        """
-        if self._face_points or self._pairs.glued:
-            return None
-        surface = self.surface(state)
-        return self._meeting(surface, standing(surface, *self._near(surface, reach)), book)
 
     def _meeting(
         self, surface: Surface, pairs: tuple[Ints, Ints], book: JointBook

@@ -17,8 +17,11 @@ Flush neighbours
     A stretch of edge that a third body covers up to the edge's end is no entrance, as far as the
     two are closed to within `FLUSH`, and a vertex whose sides are covered is seen together with the
     coverers as long as their union is convex. So the vertices inside a floor of several blocks
-    catch nothing, and a wedge between faces that open meets both. A vertex in a kink of a
-    body meets the edge that is covered there too: whatever covers it may give way.
+    catch nothing, and a wedge between faces that open meets both. A vertex in a kink meets the
+    edge that is covered there too: whatever covers it may give way.
+Kinks of two bodies
+    Slope and flat that are flush side by side bound what stands in their kink as one body does: it
+    is merged with neither, meets both, and slides over their corners, which are reentrant together.
 
 What these rules overlook is found afterwards: a step that lets a vertex through an edge is solved
 again with that pair (`with_pairs`), and what still overlaps as it appears stores no energy

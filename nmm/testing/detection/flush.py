@@ -59,16 +59,17 @@ def find_covers(
 
 
 def rays(
-    surface: Surface, covers: Covers, v: Ints, partner: Ints, rules: Rules
+    surface: Surface, covers: Covers, v: Ints, partner: Ints, mate: Ints, rules: Rules
 ) -> tuple[Floats, Floats]:
     """Rays of the vertices ``v`` as bodies other than the flush neighbours meet them.
 
-    A vertex is merged with the bodies that lie flush on its sides, the partner apart, as long as
-    the union is convex; else its own rays stand.
+    A vertex is merged with the bodies that lie flush on its sides, the partner and its ``mate``
+    apart (-1 for none), as long as the union is convex; else its own rays stand.
     """
     own, before = surface.direction[v], -surface.direction[surface.previous[v]]
-    ray_own, walked = _walk(surface, covers, v, partner, own, before, True, rules)
-    ray_before, also = _walk(surface, covers, v, partner, before, ray_own, False, rules)
+    apart = np.stack([partner, mate, surface.body[v]])
+    ray_own, walked = _walk(surface, covers, v, apart, own, before, True, rules)
+    ray_before, also = _walk(surface, covers, v, apart, before, ray_own, False, rules)
     good = (walked & also)[:, None]
     return np.where(good, ray_own, own), np.where(good, ray_before, before)
 
@@ -77,7 +78,7 @@ def _walk(
     surface: Surface,
     covers: Covers,
     v: Ints,
-    partner: Ints,
+    apart: Ints,
     ray: Floats,
     across: Floats,
     forward: bool,
@@ -90,15 +91,13 @@ def _walk(
     going = np.ones(len(v), dtype=bool)
     for _ in range(MERGED_BODIES):
         x = np.where(going, cover[at], -1)
-        body = surface.body[x]
-        going = (x >= 0) & (body != partner) & (body != surface.body[v])
+        going = (x >= 0) & (surface.body[x] != apart).all(axis=0)
         rows = np.flatnonzero(going & good)
         if not len(rows):
             break
         edge, here = x[rows], at[rows]
         corner = surface.next[edge] if forward else edge
-        offset = surface.start[corner] - surface.start[here]
-        meets = np.hypot(*offset.T) <= 2.0 * flush_distance(surface, here, edge, rules)
+        meets = _meet(surface, here, edge, corner, rules)
         turned = (
             surface.direction[corner] if forward else -surface.direction[surface.previous[corner]]
         )
@@ -110,12 +109,68 @@ def _walk(
     return ray, good
 
 
-def leaves(surface: Surface, covers: Covers, v: Ints, e: Ints, rules: Rules) -> Bools:
-    """First-order entrance condition, for the vertex alone and with its flush neighbours."""
+def _meet(surface: Surface, at: Ints, edge: Ints, corner: Ints, rules: Rules) -> Bools:
+    """Whether corners (m,) of edges that are flush at the vertices ``at`` lie there."""
+    offset = surface.start[corner] - surface.start[at]
+    return np.asarray(np.hypot(*offset.T) <= 2.0 * flush_distance(surface, at, edge, rules))
+
+
+def beside_kinks(
+    surface: Surface, covers: Covers, body: Ints, e: Ints, end: Bools, rules: Rules
+) -> Ints:
+    """Edges (m,) of a body but ``body`` that make a kink with an ``end`` of edges, or -1."""
+    at = np.where(end, surface.next[e], e)
+    x = np.where(end, covers.own[at], covers.before[at])
+    corner = np.where(end, surface.next[x], x)
+    third = (x >= 0) & (surface.body[x] != body) & (surface.body[x] != surface.body[e])
+    third &= _meet(surface, at, x, corner, rules)
+    other = np.where(end, corner, surface.previous[corner])
+    turn = cross(surface.direction[other], surface.direction[e])
+    return np.where(third & (np.where(end, -turn, turn) < -rules.sine), other, -1)
+
+
+def _depth(
+    surface: Surface, covers: Covers, body: Ints, e: Ints, end: Bools, rules: Rules
+) -> Floats:
+    """Angles (m,) of the kinks that `beside_kinks` finds (rad), or 0."""
+    other = beside_kinks(surface, covers, body, e, end, rules)
+    ways = surface.direction[other], surface.direction[e]
+    return np.where(other >= 0, np.arctan2(np.abs(cross(*ways)), dot(*ways)), 0.0)
+
+
+def within_kinks(
+    surface: Surface, covers: Covers, v: Ints, e: Ints, side: Ints, rules: Rules
+) -> Bools:
+    """Whether edges (m,) end in a kink of two, within which the ``side`` next to them lies."""
+    found = np.zeros(len(e), dtype=bool)
+    for end, beside in ((True, surface.next), (False, surface.previous)):
+        ends = np.full(len(e), end)
+        kink = beside_kinks(surface, covers, surface.body[v], e, ends, rules) >= 0
+        found |= kink & (side == beside[e])
+    return found
+
+
+def leaves(
+    surface: Surface, covers: Covers, v: Ints, e: Ints, along: Floats, rules: Rules
+) -> Bools:
+    """First-order entrance condition, for the vertex alone and with its flush neighbours.
+
+    In a kink of its body and a flush one a vertex meets only edges along its sides, and those that
+    end in a deeper one.
+    """
     own, before = surface.direction[v], -surface.direction[surface.previous[v]]
     alone = _outward(surface, e, own, before, rules)
-    merged = rays(surface, covers, v, surface.body[e], rules)
-    return alone & _outward(surface, e, *merged, rules)
+    deep = [
+        _depth(surface, covers, surface.body[e], side, np.full(len(v), end), rules)
+        for side, end in ((v, False), (surface.previous[v], True))
+    ]
+    further = along > 0.5 * surface.length[e]
+    reentrant = np.maximum(*deep) > _depth(surface, covers, surface.body[v], e, further, rules)
+    reentrant &= (covers.own[v] != e) & (covers.before[v] != e)
+    other = beside_kinks(surface, covers, surface.body[v], e, further, rules)
+    mate = np.where(other >= 0, surface.body[other], -1)
+    merged = rays(surface, covers, v, surface.body[e], mate, rules)
+    return alone & ~reentrant & _outward(surface, e, *merged, rules)
 
 
 def _outward(surface: Surface, e: Ints, own: Floats, before: Floats, rules: Rules) -> Bools:
@@ -141,6 +196,7 @@ def covered_kinks(
     corner = np.where(end, surface.next[e], e)
     x = np.where(end, covers.before[corner], covers.own[e])
     kink = ~convex_vertices(surface, rules)[corner]
+    kink |= beside_kinks(surface, covers, surface.body[v], e, end, rules) >= 0
     return np.asarray(kink & (x >= 0) & (surface.body[x] != surface.body[v]))
 
 

@@ -6,21 +6,26 @@ and an edge.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from integration.plane_vectors import dot
-from nmm.contact.detection.contacts import Contacts
+from nmm.contact.detection.contacts import VERTEX_EDGE, Contacts
 from nmm.contact.detection.measures import flush_distance, measure, rules_of, thinner
 from nmm.contact.detection.narrow_phase import contacts_of
 from nmm.contact.detection.surface import Surface, pair_key
 from nmm.contact.detection.tolerances import Rules
 from nmm.testing.detection.flush import (
+    Covers,
+    beside_kinks,
     convex_vertices,
     covered_kinks,
     find_covers,
     leaves,
     shielded,
+    within_kinks,
 )
 from nmm.testing.detection.pair_arrays import VertexPairs, pair_rule
 
@@ -43,7 +48,12 @@ def find_by_arrays(
     kept, along, gap = select(surface, VertexPairs(vertex, edge, offset), rules, known, motion)
     rows = np.flatnonzero(kept)
     parts = (vertex[rows], edge[rows], along[rows], gap[rows], kept[rows] == 2)
-    return contacts_of(surface, *parts, rules)
+    found = contacts_of(surface, *parts, rules)
+    # In a kink of two a corner stands for one edge alone.
+    covers = find_covers(surface, vertex, edge, along, gap, rules)
+    body, ends = surface.body[found.vertex], found.parameter > 0.5
+    apart = beside_kinks(surface, covers, body, found.edge, ends, rules) >= 0
+    return replace(found, kind=np.where(apart, VERTEX_EDGE, found.kind))
 
 
 def select(
@@ -72,11 +82,11 @@ def select(
     depth = np.where(trusted, rules.depth, rules.flush) * thinner(surface, v, e)
     usable = (length > 0.0) & convex[v]
     usable &= (gap >= -depth) & (gap <= rules.reach)
-    usable &= leaves(surface, covers, v, e, rules)
+    usable &= leaves(surface, covers, v, e, along, rules)
     usable &= ~shielded(surface, covers, v, e, along, gap, rules)
     rank = _rank(surface, v, e, along, gap, last, motion, rules)
     kept = np.where(interior & usable, 1, 0)
-    kept[_dominated(surface, pairs, kept == 1, interior, along, gap, rank, rules)] = -1
+    kept[_dominated(surface, pairs, covers, kept == 1, interior, along, gap, rank, rules)] = -1
     pair_rule(surface, pairs, covers, kept, usable, rank, rules)
     return np.maximum(kept, 0), along, gap
 
@@ -103,6 +113,7 @@ def _rank(
 def _dominated(
     surface: Surface,
     pairs: VertexPairs,
+    covers: Covers,
     tentative: Bools,
     interior: Bools,
     along: Floats,
@@ -126,6 +137,9 @@ def _dominated(
     some = np.flatnonzero(outside)
     row = j[some]
     outside[some] = ~_passes(surface, pairs.vertex[row], e[row], along[row], gap[row])
+    some = np.flatnonzero(outside)
+    known = pairs.vertex[i[some]], e[i[some]], e[j[some]]
+    outside[some] = ~within_kinks(surface, covers, *known, rules)
     dominated = np.zeros(len(e), dtype=bool)
     dominated[i[(tentative[j] & better) | outside]] = True
     return dominated

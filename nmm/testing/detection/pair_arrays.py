@@ -86,7 +86,7 @@ def _beyond(
     rules: Rules,
 ) -> Bools:
     """Whether a point at ``offset`` from the vertex has its foot on neither of the rays."""
-    own, before = rays(surface, covers, w, partner, rules)
+    own, before = rays(surface, covers, w, partner, np.full(len(w), -1), rules)
     return np.asarray((dot(offset, own) <= slop) & (dot(offset, before) <= slop))
 
 

@@ -5,7 +5,13 @@ import math
 from integration.arrays import Bools, Floats
 from nmm.compiled import compiled
 from nmm.contact.detection.narrow.edges import thinner
-from nmm.contact.detection.narrow.shields import covered_kink, leaves, rays, shielded
+from nmm.contact.detection.narrow.kinks import (
+    beside_kink,
+    covered_kink,
+    in_kink_of_two,
+    within_kink,
+)
+from nmm.contact.detection.narrow.shields import leaves, rays, shielded
 from nmm.contact.detection.narrow.tables import EdgesOfVertex, Shape, Small
 from nmm.contact.detection.tolerances import Rules
 
@@ -50,7 +56,7 @@ def _beside(shape: Shape, v: int, e: int, s: float, known: bool, rules: Rules) -
     sharp = rules.end * shape[e].length + rules.rounding
     flush = rules.flush * thinner(shape, v, e) + rules.rounding
     # Beside the nearer end; an end that is written out is compiled once for each.
-    room = flush if known or covered_kink(shape, v, e, int(s > 0.0)) else sharp
+    room = flush if known or covered_kink(shape, v, e, int(s > 0.0), rules) else sharp
     return bool(s >= -room and s <= shape[e].length + room)
 
 
@@ -78,7 +84,12 @@ def judge(
         if not leaves(shape, e, ox, oy, bx, by, rules):
             continue
         if covered:
-            ux, uy, wx, wy = rays(shape, v, shape[e].body, rules)
+            further = int(s[k] > 0.5 * shape[e].length)
+            if in_kink_of_two(shape, v, e, further, rules):
+                continue
+            mate = beside_kink(shape, v, e, further, rules)
+            mate = shape[mate].body if mate >= 0 else -1
+            ux, uy, wx, wy = rays(shape, v, shape[e].body, mate, rules)
             if not leaves(shape, e, ux, uy, wx, wy, rules):
                 continue
         if not shielded(shape, v, e, s[k], gap[k], rules):
@@ -129,6 +140,7 @@ def dominate(
             else:
                 better = gap[j] > rules.grain and gap[i] < 0.0
                 better = better and not _passes(shape, v, edge[j], s[j], gap[j])
+                better = better and not within_kink(shape, v, edge[i], edge[j], rules)
             if (
                 better
                 and _inside(shape, edge[i], edge[j], rules)

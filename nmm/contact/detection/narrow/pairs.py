@@ -26,7 +26,7 @@ def _find(edge: Ints, offset: Ints, v: int, e: int) -> int:
 def _beyond(
     shape: Shape, w: int, partner: int, dx: float, dy: float, slop: float, rules: Rules
 ) -> bool:
-    ox, oy, bx, by = rays(shape, w, partner, rules)
+    ox, oy, bx, by = rays(shape, w, partner, -1, rules)
     return dx * ox + dy * oy <= slop and dx * bx + dy * by <= slop
 
 

@@ -8,18 +8,11 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.compiled import compiled
+from nmm.contact.detection.narrow.columns import Columns, describe
 from nmm.contact.detection.narrow.edges import cover, measure
 from nmm.contact.detection.narrow.lines import USABLE, dominate, judge, rank_of
 from nmm.contact.detection.narrow.pairs import pair
-from nmm.contact.detection.narrow.tables import (
-    Columns,
-    EdgesOfVertex,
-    Shape,
-    Small,
-    describe,
-    offsets,
-    shape_of,
-)
+from nmm.contact.detection.narrow.tables import EdgesOfVertex, Shape, Small, offsets, shape_of
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import Rules
 

@@ -4,6 +4,7 @@ import numpy as np
 
 from nmm.compiled import compiled
 from nmm.contact.detection.narrow.edges import thinner
+from nmm.contact.detection.narrow.kinks import corner_beside, covered_kink, covering
 from nmm.contact.detection.narrow.tables import Shape
 from nmm.contact.detection.tolerances import MERGED_BODIES, Rules
 
@@ -11,16 +12,19 @@ Rays = tuple[float, float, float, float]
 
 
 @compiled
-def rays(shape: Shape, v: int, partner: int, rules: Rules) -> Rays:
-    """Rays of a vertex, merged with its flush neighbours as long as the union is convex."""
+def rays(shape: Shape, v: int, partner: int, mate: int, rules: Rules) -> Rays:
+    """Rays of a vertex, merged with its flush neighbours as long as the union is convex.
+
+    The partner is none of them, nor its ``mate`` (-1 for none), which makes a kink with it.
+    """
     p = shape[v].previous
     ox, oy = shape[v].tx, shape[v].ty
     bx, by = -shape[p].tx, -shape[p].ty
     if shape[v].own < 0 and shape[v].before < 0:
         return ox, oy, bx, by
-    good, ux, uy = _walk(shape, v, partner, ox, oy, bx, by, 1.0, rules)
+    good, ux, uy = _walk(shape, v, (partner, mate), ox, oy, bx, by, 1.0, rules)
     if good:
-        good, wx, wy = _walk(shape, v, partner, bx, by, ux, uy, -1.0, rules)
+        good, wx, wy = _walk(shape, v, (partner, mate), bx, by, ux, uy, -1.0, rules)
         if good:
             return ux, uy, wx, wy
     return ox, oy, bx, by
@@ -39,7 +43,7 @@ def leaves(shape: Shape, e: int, ox: float, oy: float, bx: float, by: float, rul
 def _walk(
     shape: Shape,
     v: int,
-    partner: int,
+    apart: tuple[int, int],
     rx: float,
     ry: float,
     ax: float,
@@ -49,18 +53,16 @@ def _walk(
 ) -> tuple[bool, float, float]:
     """Turn one ray of a vertex over its flush neighbours; False where the union is not convex.
 
-    ``sense`` is 1 forward and -1 backward: of a truth that is written out each value is compiled.
+    Bodies ``apart`` are no neighbours. ``sense`` is 1 forward and -1 backward: of a truth that is
+    written out each value is compiled.
     """
     at, forward = v, sense > 0.0
     for _ in range(MERGED_BODIES):
         x = shape[at].own if forward else shape[at].before
-        if x < 0 or shape[x].body == partner or shape[x].body == shape[v].body:
+        if x < 0 or shape[x].body in (shape[v].body, apart[0], apart[1]):
             break
-        corner = shape[x].next if forward else x
-        dx = shape[corner].sx - shape[at].sx
-        dy = shape[corner].sy - shape[at].sy
-        flush = 2.0 * (rules.flush * thinner(shape, at, x) + rules.rounding)
-        if dx * dx + dy * dy > flush * flush or not shape[corner].convex:
+        corner = corner_beside(shape, at, x, forward, rules)
+        if corner < 0 or not shape[corner].convex:
             return False, rx, ry
         if forward:
             rx, ry = shape[corner].tx, shape[corner].ty
@@ -97,23 +99,6 @@ def _closed(shape: Shape, e: int, x: int, end: int, aside: float, rules: Rules) 
 
 
 @compiled
-def _covering(shape: Shape, v: int, e: int, end: int) -> int:
-    """Return the edge of a third body that lies flush on an edge next to an end of it; or -1."""
-    x: int = shape[e].own if end == 0 else shape[shape[e].next].before
-    return -1 if x >= 0 and shape[x].body == shape[v].body else x
-
-
-@compiled
-def covered_kink(shape: Shape, v: int, e: int, end: int) -> bool:
-    """Whether an edge ends in a kink, beside which a third body covers it.
-
-    Both edges that meet there bound the way of a vertex as what covers them gives way.
-    """
-    corner = e if end == 0 else shape[e].next
-    return bool(not shape[corner].convex and _covering(shape, v, e, end) >= 0)
-
-
-@compiled
 def shielded(shape: Shape, v: int, e: int, s: float, gap: float, rules: Rules) -> bool:
     """Whether the foot is on a stretch of edge, next to its end, that a third body covers."""
     length = shape[e].length
@@ -121,11 +106,11 @@ def shielded(shape: Shape, v: int, e: int, s: float, gap: float, rules: Rules) -
     foot = min(max(s, 0.0), length)
     flush = rules.flush * thinner(shape, v, e) + rules.rounding
     beside = min(foot, length - foot)
-    if max(beside, abs(gap)) <= flush and covered_kink(shape, v, e, int(foot > beside)):
+    if max(beside, abs(gap)) <= flush and covered_kink(shape, v, e, int(foot > beside), rules):
         return False
     total = 0.0
     for end in range(2):
-        x = _covering(shape, v, e, end)
+        x = covering(shape, v, e, end)
         if x < 0:
             continue
         if end == 0:

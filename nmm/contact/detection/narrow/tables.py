@@ -1,4 +1,4 @@
-"""Tables of the compiled narrow phase: edges as they go in, contacts as they come out."""
+"""The table of edges that the compiled narrow phase works on."""
 
 import math
 from typing import Any, NamedTuple
@@ -8,12 +8,9 @@ import numpy.typing as npt
 
 from integration.arrays import Floats, Ints
 from nmm.compiled import compiled
-from nmm.contact.detection.tolerances import Rules
 
 Small = npt.NDArray[np.int8]
 """States of rows."""
-Columns = tuple[Ints, Ints, Floats, Floats, Floats, Ints, Ints, Ints, Ints]
-"""Those of `contacts.Contacts`."""
 
 
 class EdgesOfVertex(NamedTuple):
@@ -99,35 +96,3 @@ def offsets(vertex: Ints, edge: Ints, count: int) -> tuple[Ints, bool]:
     for v in range(count):
         offset[v + 1] += offset[v]
     return offset, rising
-
-
-@compiled
-def describe(
-    shape: Shape,
-    vertex: Ints,
-    edge: Ints,
-    rows: Ints,
-    final: Small,
-    s: Floats,
-    gap: Floats,
-    rules: Rules,
-) -> Columns:
-    """Columns of `contacts.Contacts` for the kept rows."""
-    m, n = len(rows), len(shape)
-    v, e, key = np.empty(m, np.int64), np.empty(m, np.int64), np.empty(m, np.int64)
-    body, corner = np.empty(m, np.int64), np.empty(m, np.int64)
-    kind = np.empty(m, np.int64)
-    parameter, normal, distance = np.empty(m), np.empty((m, 2)), np.empty(m)
-    for i in range(m):
-        k = rows[i]
-        v[i], e[i], distance[i] = vertex[k], edge[k], gap[k]
-        x = e[i]
-        key[i], body[i] = v[i] * n + x, shape[x].body
-        parameter[i] = min(max(s[k] / shape[x].length, 0.0), 1.0)
-        normal[i, 0], normal[i, 1] = shape[x].ty, -shape[x].tx
-        corner[i] = shape[x].next if parameter[i] > 0.5 else x
-        beside = min(abs(s[k]), abs(shape[x].length - s[k]))
-        thin = min(shape[v[i]].thick, shape[x].thick)
-        near = beside <= rules.flush * thin + rules.rounding
-        kind[i] = 1 if near or final[k] == 2 else 0
-    return v, e, parameter, normal, distance, kind, key, body, corner

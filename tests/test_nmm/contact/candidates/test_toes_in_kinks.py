@@ -5,6 +5,8 @@ import pytest
 from scipy.optimize import brentq
 
 import nmm
+from nmm.verification import text
+from nmm.verification.reading import last_way
 
 SCENE = """
 plane = "strain"
@@ -25,6 +27,7 @@ vertices = [[0, 0], [0, 2], [-2, 2]]
 """
 HELD = '[[blocks]]\nname = "%s"\nmaterial = "rock"\nvertices = %s\n'
 HELD += '[[supports]]\nname = "%s"\nblock = "%s"\nfix = ["x", "y"]\n'
+WEDGE = [[0, 0], [0, 2], [-2, 2]]
 ONE = {"ground": [[-4, 4], [-4, -2], [6, -2], [6, 0], [0, 0]]}
 TWO = {
     "slope": [[-4, 4], [-4, -2], [0, -2], [0, 0]],
@@ -66,3 +69,42 @@ def test_a_wedge_in_a_kink_is_as_safe_as_three_forces_in_one_point_say(ground, c
     assert found.factor_of_safety <= expected * (1 + 1e-4)
     assert found.factor_that_fails >= expected * (1 - 1e-4)
     assert found.factor_that_fails - found.factor_of_safety <= 0.01
+
+
+def acceleration(friction):
+    """Return that of the toe along the flat, as the wedge slides on it and on the slope (m/s2).
+
+    While the toe moves by 4 t the upper corner moves by 2 t down either axis, and the wedge turns
+    by t; forces act at both corners, at the angle of friction from the normals.
+    """
+    mass, centre = 2500.0 * 2.0, np.array([-2 / 3, 4 / 3])
+    inertia = mass * (2.0**2 + 2.0**2) / 18
+    rub = np.tan(friction)
+    flat, slope = np.array([-rub, 1.0]), np.array([1 - rub, 1 + rub]) / np.sqrt(2)
+    arms = -centre, np.array([-2.0, 2.0]) - centre
+    moments = [
+        arm[0] * force[1] - arm[1] * force[0]
+        for arm, force in zip(arms, (flat, slope), strict=True)
+    ]
+    motion = np.array([mass * (4.0 - centre[1]), mass * centre[0], inertia])
+    columns = [[*flat, moments[0]], [*slope, moments[1]], -motion]
+    weight = [0.0, mass * text.G, 0.0]
+    return 4.0 * np.linalg.solve(np.transpose(columns), weight)[2]
+
+
+@pytest.mark.parametrize("points", ["vertices", "faces"])
+@pytest.mark.parametrize(("mirror", "wedge_first"), [(1, False), (-1, True)])
+def test_a_wedge_in_the_kink_of_two_bodies_slides_as_two_forces_say(mirror, wedge_first, points):
+    outlines = [("wedge", WEDGE), *TWO.items()][:: 1 if wedge_first else -1]
+    parts = [text.block(name, "rock", np.multiply(at, [mirror, 1])) for name, at in outlines]
+    stiff = text.material("rock", modulus=1e12, density=2500.0)
+    monitor = text.monitor("toe", np.zeros(2), "wedge")
+    held = [text.fixed_block(name) for name in TWO]
+    general = text.weighty(2e-3, duration=0.05)
+    general = general.replace("normal_penalty = 100.0", f'points = "{points}"')
+    scene = text.scene(general, [stiff, text.interface("any", 5.0), *parts, *held, monitor])
+    found = nmm.run(nmm.parse_scene(scene))
+    way = last_way(found, "toe")
+    # 1 % for what the springs give as weight comes on at once.
+    assert way[0] * mirror == pytest.approx(acceleration(np.radians(5.0)) * 0.05**2 / 2, rel=0.01)
+    assert found.summary.audits["energy_made_in_run"] < 1e-6

@@ -1,11 +1,15 @@
 """Corners in kinks of two bodies side by side: both edges bound their way, and no other does."""
 
+from itertools import permutations
+
 import numpy as np
 import pytest
 
 from integration.polygons import Polygons
-from nmm.contact.detection.kinks import in_kinks, standing
+from nmm.contact.detection.kinks import in_kinks
+from nmm.contact.detection.narrow_phase import find_contacts
 from nmm.contact.detection.neighbour_list import NeighbourList
+from nmm.testing.detection.narrow_arrays import find_by_arrays
 from nmm.testing.detection.search import polygon_surface
 
 SLOPE, FLAT = [[-4, 4], [-4, -2], [0, -2], [0, 0]], [[0, 0], [0, -2], [6, -2], [6, 0]]
@@ -15,13 +19,22 @@ SECTORS = [[[0, 0], ENDS[i], ENDS[i + 1]] for i in range(3)]
 SQUARES = [[[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]] for x in (-1, 0) for y in (-1, 0)]
 
 
-def found(rings, turn=0.0, reach=1e-3, alone=False):
-    """Return the body of the corner and the outward normal of the edge, unturned, of each pair."""
+def placed(rings, turn):
+    """Return the turned edges of rings, and the axes that they were turned into."""
     axes = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
     rings = [np.array(ring, dtype=float) @ axes for ring in rings]
-    surface = polygon_surface(Polygons.from_vertices(rings))
-    near = NeighbourList(2 * reach).update(surface)
-    vertex, edge = standing(surface, *near) if alone else in_kinks(surface, *near, reach)
+    return polygon_surface(Polygons.from_vertices(rings)), axes
+
+
+def ground_and(blocks, turn, order):
+    rings = [SLOPE, FLAT, *blocks]
+    return placed([rings[body] for body in order], turn)
+
+
+def found(rings, turn=0.0, reach=1e-3):
+    """Return the body of the corner and the outward normal of the edge, unturned, of each pair."""
+    surface, axes = placed(rings, turn)
+    vertex, edge = in_kinks(surface, *NeighbourList(2 * reach).update(surface), reach)
     return surface.body[vertex], surface.normal[edge] @ axes.T
 
 
@@ -44,17 +57,31 @@ def test_corners_on_a_seam_of_the_floor_meet_no_sides_of_it(turn):
         assert mine == sorted(beside[of])
 
 
-@pytest.mark.parametrize("up", [0.0, 1e-12, 1e-4])
-@pytest.mark.parametrize("turn", [0.0, 0.7, 3.0])
-def test_a_toe_stands_on_the_edge_below_its_flush_neighbour_alone(up, turn):
-    """By its sides it lies on the slope and on the block; the block so stands before the slope."""
-    wedge = np.add(WEDGE, [-up, up])
-    body, normal = found([SLOPE, FLAT, wedge, BLOCK], turn, alone=True)
-    np.testing.assert_allclose(normal[body == 2], [[0, 1]], rtol=0, atol=1e-12)
-    np.testing.assert_allclose(normal[body == 3], [[0.5**0.5, 0.5**0.5]], rtol=0, atol=1e-12)
+@pytest.mark.parametrize("find", [find_contacts, find_by_arrays])
+@pytest.mark.parametrize("order", list(permutations([0, 1, 2])))
+@pytest.mark.parametrize("turn", [0.0, 0.7])
+@pytest.mark.parametrize("lean", [0.0, 0.4])
+@pytest.mark.parametrize("slid", [0.0, -1e-9, 5e-4, 7e-4, 1e-2])
+def test_a_wedge_in_a_kink_meets_slope_and_flat_and_slides_over_their_corners(
+    slid, lean, turn, order, find
+):
+    """Half a mm is flush with the kink, 1 cm past it; a side may lean less than the slope does."""
+    wedge = np.add(WEDGE, [[slid, 0.0], [slid + lean, 0.0], [slid, 0.0]])
+    surface, axes = ground_and([wedge], turn, order)
+    contacts = find(surface, *NeighbourList(4e-3).update(surface), 2e-3)
+    of_wedge = contacts.take(surface.body[contacts.vertex] == order.index(2))
+    on_wedge = contacts.take(contacts.body == order.index(2))
+    normals = (of_wedge.normal @ axes.T).round(9)
+    assert (normals == [0, 1]).all(axis=1).sum() == 1
+    # What does not lie along the wedge's lower face bounds no way.
+    assert (np.abs(on_wedge.normal @ axes.T + 0.5**0.5) < 1e-9).all()
 
 
 @pytest.mark.parametrize("turn", np.linspace(0.0, 3.0, 7))
-@pytest.mark.parametrize("rings", [SQUARES, SECTORS])
-def test_cells_that_fit_stand_on_nothing_beside_their_sides(rings, turn):
-    assert not len(found(rings, turn, alone=True)[0])
+@pytest.mark.parametrize(("rings", "sides"), [(SQUARES, 4), (SECTORS, 3)])
+def test_cells_that_fit_meet_along_their_sides_alone(rings, sides, turn):
+    surface, _ = placed(rings, turn)
+    contacts = find_contacts(surface, *NeighbourList(2e-3).update(surface), 1e-3)
+    pairs = np.sort([surface.body[contacts.vertex], contacts.body], axis=0)
+    _, ends = np.unique(pairs, axis=1, return_counts=True)
+    assert ends.tolist() == [2] * sides

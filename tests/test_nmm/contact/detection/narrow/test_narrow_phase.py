@@ -138,6 +138,7 @@ def test_reentrant_vertices_meet_nothing_and_a_block_in_a_notch_touches_both_fac
 KINKS = {  # a slope of 45 degrees and the flat at its foot, which is the origin
     "one body": ([[-4, 4], [-4, -2], [6, -2], [6, 0], [0, 0]],),
     "one on the other": ([[-4, 4], [-4, 0], [0, 0]], [[-4, 0], [-4, -2], [6, -2], [6, 0]]),
+    "side by side": ([[-4, 4], [-4, -2], [0, -2], [0, 0]], [[0, 0], [0, -2], [6, -2], [6, 0]]),
 }
 
 
