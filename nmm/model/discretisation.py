@@ -64,7 +64,8 @@ class Discretisation:
 
             declared = InitialVelocity.from_setup(setup).begin(declared)
         memory = without_members_gone(state.memory, self.setup.scene, setup.scene)
-        after = replace(carried(old, new, kin, state, declared), memory=memory)
+        turning = setup.kinematics.turns
+        after = replace(carried(old, new, kin, state, declared, turning), memory=memory)
         change = Change(self.setup, setup, kin, after, former=state)
         if np.array_equal(self.setup.region_material, setup.region_material):
             return change

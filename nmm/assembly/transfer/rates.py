@@ -7,7 +7,7 @@ import numpy as np
 
 from covers.change.transfer import Transfer, by_body
 from integration.arrays import Floats
-from integration.plane_vectors import cross
+from integration.plane_vectors import counterclockwise, cross
 from integration.sparse import csr_array
 from nmm.assembly.model import Model
 from nmm.assembly.moving.momenta import momenta
@@ -17,6 +17,9 @@ from nmm.assembly.moving.momenta import momenta
 class CarriedRates:
     """What rates must keep: the momenta (3 B,) of bodies in their own axes.
 
+    Velocities of bodies whose axes turn are momentum over mass as the bodies were laid: those of
+    the material turn by ``omega (1 - 2 s / J0)`` about strained arms (`nmm.effects.inertia`).
+
     Attributes
     ----------
     old, new, transfer
@@ -25,6 +28,8 @@ class CarriedRates:
         Deformations (n,) of the state on either.
     shift
         (B, 2) what frames have taken over of the displacements before (m).
+    turning
+        Whether rates are velocities of bodies whose axes turn with them.
     """
 
     old: Model
@@ -33,6 +38,7 @@ class CarriedRates:
     before: Floats
     after: Floats
     shift: Floats
+    turning: bool = False
 
     def rates(self, rate: Floats) -> Floats:
         """Project a rate (n,) and put its momenta right."""
@@ -44,7 +50,8 @@ class CarriedRates:
         """Momenta (3 B,) that the new bodies are to have."""
         kin = self.transfer.kin
         whole, main = kin.whole, np.maximum(kin.bodies.main, 0)
-        before = (momenta(self.old, self.before) @ rate).reshape(-1, 3)
+        strained = np.zeros_like(self.before) if self.turning else self.before
+        before = (momenta(self.old, strained) @ rate).reshape(-1, 3)
         if whole.all():
             return np.asarray(before[main].ravel())
         parts = self._of_points(rate)
@@ -55,12 +62,28 @@ class CarriedRates:
         """The same (B, 3) by points everywhere, for bodies that were divided."""
         kin, heavy = self.transfer.kin, bool((self.old.density > 0).all())
         transfer = Transfer.of(kin, self.old.density if heavy else np.ones_like(self.old.density))
-        fast = transfer.old.apply(rate)
         body = kin.new.element_body[transfer.elements[1]]
         centre = (kin.new.body_centroid + self.shift)[body]
-        arm = transfer.points - centre + transfer.old.apply(self.before)
+        way = transfer.old.apply(self.before)
+        arm, fast = transfer.points - centre + way, transfer.old.apply(rate)
+        if self.turning:
+            parent = kin.old.element_body[transfer.elements[0]]
+            spin, slower = (one[parent, None] for one in self._spins(rate))
+            about = transfer.points - kin.old.body_centroid[parent] + way
+            fast = fast + spin * counterclockwise(way) - slower * counterclockwise(about)
         thick = self.old.thickness if heavy else 1.0
         return thick * transfer.sums(np.column_stack([fast, cross(arm, fast)]))
+
+    def _spins(self, rate: Floats) -> tuple[Floats, Floats]:
+        """Spin (A,) of the old bodies, and how much less they turn, ``2 omega s / J0`` (rad/s)."""
+        modes = self.old.manifold.rigid_modes
+        spin = (self.old.rigid_projection @ rate).reshape(-1, 3)[:, 2]
+        turn = modes @ np.tile([0.0, 0.0, 1.0], len(spin))
+        laid, strained = (
+            (momenta(self.old, deformation) @ turn).reshape(-1, 3)[:, 2]
+            for deformation in (np.zeros_like(self.before), self.before)
+        )
+        return spin, 2 * spin * (strained - laid) / laid
 
     def _missing(self, before: Floats, parts: Floats) -> Floats:
         """Share (B, 3) of each part in what parts lack of the momenta ``before`` (A, 3) of one.
@@ -88,4 +111,4 @@ class CarriedRates:
 
     @cached_property
     def _rows(self) -> csr_array:
-        return momenta(self.new, self.after)
+        return momenta(self.new, np.zeros_like(self.after) if self.turning else self.after)

@@ -21,8 +21,13 @@ from nmm.assembly.transfer.history import carried_history
 from nmm.assembly.transfer.rates import CarriedRates
 
 
-def carried(old: Model, new: Model, kin: Parentage, state: State, declared: State) -> State:
-    """Return the state on the new model; bodies without parents start as ``declared``."""
+def carried(
+    old: Model, new: Model, kin: Parentage, state: State, declared: State, turning: bool = False
+) -> State:
+    """Return the state on the new model; bodies without parents start as ``declared``.
+
+    ``turning`` says whether the axes of bodies turn with them.
+    """
     density = old.density if (old.density > 0).all() else np.ones_like(old.density)
     transfer = Transfer.of(kin, density, inherited(kin))
     deformation = transfer.deformation(state.deformation, old.drained)
@@ -38,8 +43,11 @@ def carried(old: Model, new: Model, kin: Parentage, state: State, declared: Stat
     frames, deformation = _centred(new, frames, placed, shift)
     moving = CarriedRates(old, new, transfer, state.deformation, deformation, shift)
     velocity, acceleration = (
-        moving.rates(rate) if rate.any() else np.zeros_like(deformation)
-        for rate in (state.velocity, state.acceleration)
+        way.rates(rate) if rate.any() else np.zeros_like(deformation)
+        for way, rate in (
+            (replace(moving, turning=turning), state.velocity),
+            (moving, state.acceleration),
+        )
     )
     return replace(
         state,

@@ -7,6 +7,8 @@ import pytest
 
 import nmm
 from nmm.assembly.material_points import vertex_points
+from nmm.assembly.moving.momenta import whole_momentum
+from nmm.effects.inertia import Inertia
 from nmm.stepping.prepare import prepare
 from nmm.verification.problems.splitting.pieces import flying_block, moving, split
 
@@ -76,3 +78,27 @@ def test_a_block_that_splits_in_flight_falls_as_one_that_does_not():
     momentum = np.asarray(model.manifold.rigid_modes.T @ (model.mass @ v)).reshape(-1, 3)
     push = found.state.frames.to_global(np.arange(len(momentum)), momentum[:, :2]).sum(axis=0)
     np.testing.assert_allclose(push, [12000, 4000 - 4000 * 0.981], rtol=1e-11)
+
+
+@pytest.mark.parametrize("cover", COVERS)
+def test_a_stretched_block_that_spins_keeps_its_angular_momentum_and_energy_as_it_splits(cover):
+    """Spin ``L / J0``, energy ``L^2 / (2 J)`` with ``J`` of the strained place, before and after.
+
+    Pieces have the momenta of the material: strained arms, and a spin of ``L / J``.
+    """
+    stepper = stepper_of(COVERS[cover]).stepper
+    model, spin = stepper.model, 20.0
+    strain = np.array([4e-5, -1e-5])
+    stretched = moving(model, [0, 0], np.diag(strain)).velocity
+    state = replace(moving(model, [3, 1], [[0, -spin], [spin, 0]]), deformation=stretched)
+    middle, laid = state.frames.centre[0], 4000 * (2**2 + 1**2) / 12
+    change = split(stepper, state, 0.6)
+    *push, angular = whole_momentum(change.new, change.state, middle)
+    np.testing.assert_allclose(push, [12000, 4000], rtol=1e-12)
+    assert angular == pytest.approx(laid * spin, rel=1e-12)
+    strained = 4000 * np.sum((1 + strain) ** 2 * np.array([2**2, 1**2])) / 12
+    moved = 4000 * (3**2 + 1**2) / 2
+    energy = (laid * spin) ** 2 / (2 * strained) + moved
+    # To first order in the strain, as the energy of rotation is.
+    found = Inertia(change.new).energy(change.state)
+    assert found == pytest.approx(energy, abs=laid * spin**2 * 10 * strain.max() ** 2)
