@@ -12,6 +12,7 @@ import numpy as np
 import shapely
 
 from covers.approximation.manifold import Manifold
+from covers.change.common_parts import common_parts
 from covers.change.relation import Relation, identity
 from covers.cutting.boundary import BoundaryEdges
 from integration.arrays import Bools, Floats, Ints
@@ -133,12 +134,8 @@ def _overlaps(old: Manifold, new: Manifold, kept: tuple[Ints, Ints]) -> tuple[Re
     parent, child = mine[parent], others[child]
     alike = old.element_region[parent] == new.element_region[child]
     parent, child = parent[alike], child[alike]
-    shapes, owner = shapely.get_parts(
-        shapely.intersection(
-            first[np.searchsorted(mine, parent)], second[np.searchsorted(others, child)]
-        ),
-        return_index=True,
-    )
+    pairs = np.searchsorted(mine, parent), np.searchsorted(others, child)
+    shapes, owner = shapely.get_parts(common_parts(first, second, *pairs), return_index=True)
     parent, child, area = parent[owner], child[owner], shapely.area(shapes)
     smaller = np.minimum(old.elements.areas[parent], new.elements.areas[child])
     counts = (shapely.get_type_id(shapes) == 3) & (area > ROUNDING * smaller)
