@@ -177,6 +177,12 @@ THRESHOLDS: dict[str, Threshold] = {
         None,
         "`[splitting]`",
     ),
+    "split_energy": Threshold(
+        "energy that cuts of blocks that split added or took, over the turnover",
+        2e-2,
+        0.5,
+        "`[splitting]` in dynamics without `[fracture]` and `[[stages]]`",
+    ),
     "growth_energy": Threshold(
         "energy that growth freed less what its toughness took, over the largest energy",
         1e-3,
