@@ -126,6 +126,11 @@ class Imposition(ABC):
         return True
 
     @property
+    def bends(self) -> bool:
+        """Whether its forces are no lines in the unknowns, where no body turns."""
+        return False
+
+    @property
     def oriented(self) -> bool:
         """Whether its directions are those of one of two bodies."""
         return False

@@ -6,7 +6,7 @@ the rotation (total Lagrangian). Forces are those of the first Piola-Kirchhoff s
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import ClassVar, Self
 
@@ -193,24 +193,21 @@ class FiniteMatter:
     def _kirchhoff(self, gradient: Floats) -> Floats:
         return kirchhoff(gradient, self._potential(green(gradient)).stress)
 
-    def _gradient(self, deformation: Floats) -> Floats:
-        """Return the gradients (Q, 4) of a trial.
+    def asked(self, gradient: Floats, points: Floats, law: Ints) -> Response:
+        """Return first Piola-Kirchhoff stress (m, 4) and tangent (m, 4, 4) at other points (m, 2).
+
+        ``law`` (m,) is that of each, and ``gradient`` (m, 4) what is there.
 
         Raises
         ------
         SolveError
             Where matter is turned inside out.
         """
-        found = self.points.strain(deformation)
-        volume = volumes(found)
-        at = int(np.argmin(np.where(np.isnan(volume), -np.inf, volume)))
-        if not volume[at] > 0:
-            x, y = self.points.rule.points[at]
-            raise SolveError(
-                f"matter at ({x:.6g}, {y:.6g}) is turned inside out: expected a volume above zero: "
-                "take smaller steps or cells"
-            )
-        return found
+        return replace(self, law=law)._at(_upright(gradient, points))
+
+    def _gradient(self, deformation: Floats) -> Floats:
+        """Return the gradients (Q, 4) of a trial; raises `SolveError` as `asked` does."""
+        return _upright(self.points.strain(deformation), self.points.rule.points)
 
     def _at(self, gradient: Floats, turns: Floats | None = None) -> Response:
         """Return first Piola-Kirchhoff stress and tangent at gradients (Q, 4).
@@ -233,6 +230,19 @@ class FiniteMatter:
             answer = law.potential(strain[at], self.plane)
             energy[at], stress[at], tangent[at] = answer
         return FiniteResponse(energy, stress, tangent)
+
+
+def _upright(gradient: Floats, points: Floats) -> Floats:
+    """Return gradients (m, 4) at points (m, 2), none of which turns matter inside out."""
+    volume = volumes(gradient)
+    at = int(np.argmin(np.where(np.isnan(volume), -np.inf, volume)))
+    if not volume[at] > 0:
+        x, y = points[at]
+        raise SolveError(
+            f"matter at ({x:.6g}, {y:.6g}) is turned inside out: expected a volume above zero: "
+            "take smaller steps or cells"
+        )
+    return gradient
 
 
 def _by(rates: Floats, stress: Floats) -> Floats:

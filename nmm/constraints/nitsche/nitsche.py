@@ -23,6 +23,7 @@ from nmm.assembly.tractions.donors import Flux, added_traction, in_global_axes
 from nmm.assembly.tractions.held_edges import HeldEdge
 from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface, Triplets, joined, product, sparse_rows
+from nmm.constraints.nitsche.finite_traction import FiniteTraction, finite_penalty
 from nmm.constraints.nitsche.linear_matter import check_linear
 from nmm.constraints.nitsche.nitsche_terms import against_ground, between_bodies
 from nmm.constraints.nitsche.volume_lift import PressureLift
@@ -37,17 +38,21 @@ class Nitsche(Imposition):
     penalty
         (m,) Pa/m; zero where neither side has stress.
     fluxes
-        Tractions on the first side that either side gives, times its weight.
+        Tractions on the first side that either side gives, times its weight; none where matter
+        of finite strain has them.
     ghost
         Matrix that ties cut elements to their neighbours; None without any.
     lift
         The part of pressures; None where neither side has any.
+    edge
+        Matter of finite strain beside a support, which has the traction; None of linear matter.
     """
 
     penalty: Floats
     fluxes: tuple[Flux, ...]
     ghost: csc_array | None = None
     lift: PressureLift | None = None
+    edge: FiniteTraction | None = None
 
     words: ClassVar[str] = "Nitsche's method"
     reads: ClassVar[frozenset[str] | None] = frozenset({"gamma", "ghost"})
@@ -57,9 +62,15 @@ class Nitsche(Imposition):
     @classmethod
     def of(cls, model: Model, interface: Interface, method: Method) -> Self:
         place, other = ("supports", "penalty") if interface.second is None else ("glue", "spring")
-        check_linear(model, f"[{place}] method", f'method = "{other}"')
-        terms = against_ground if interface.second is None else between_bodies
-        return cls(interface, *terms(model, interface, method))
+        if interface.second is not None or not model.finite:
+            check_linear(model, f"[{place}] method", f'method = "{other}"')
+        if interface.second is not None:
+            return cls(interface, *between_bodies(model, interface, method))
+        if not model.finite:
+            return cls(interface, *against_ground(model, interface, method))
+        edge = interface.first
+        penalty = finite_penalty(model, edge, interface.area, method)
+        return cls(interface, penalty, (), edge=FiniteTraction.of(model, edge))
 
     def with_lift(self, lift: PressureLift) -> Self:
         return replace(self, lift=lift)
@@ -67,7 +78,7 @@ class Nitsche(Imposition):
     def matrix(self, state: State) -> Triplets:
         area, n = self.interface.area[:, None, None], len(state.deformation)
         unknowns, rows = self.interface.rows(state)
-        flux = in_global_axes(self.fluxes, state.frames)
+        flux = self._slopes(state)
         row, column, value = product((unknowns, -area * rows), flux)
         square = product((unknowns, rows), (unknowns, area * self.penalty[:, None, None] * rows))
         parts: list[Triplets] = [(row, column, value), (column, row, value), square]
@@ -81,7 +92,7 @@ class Nitsche(Imposition):
         return joined(parts)
 
     def force(self, state: State, jump: Floats) -> Floats:
-        unknowns, flux = in_global_axes(self.fluxes, state.frames)
+        unknowns, flux = self._slopes(state)
         back = contract("mcl,mc->ml", flux, self.interface.area[:, None] * jump)
         total = self.interface.spread(state, self._consistent(state, jump))
         total += np.bincount(unknowns.ravel(), back.ravel(), minlength=len(total))
@@ -100,10 +111,15 @@ class Nitsche(Imposition):
         return np.asarray(total)
 
     def added(self, state: State, stresses: Sequence[StressAt], time: float) -> Floats:
+        if self.edge is not None:
+            return super().added(state, stresses, time)
         total = added_traction(self.fluxes, state.frames, stresses, time)
         return self.interface.area[:, None] * total
 
-    def held_edge(self, state: State, jump: Floats) -> HeldEdge:
+    def held_edge(self, state: State, jump: Floats) -> HeldEdge | None:
+        if self.edge is not None:
+            return None
+
         def rows() -> tuple[csr_array, csr_array]:
             both = sparse_rows(*self.interface.rows(state), len(state.deformation))
             return csr_array(both[0::2]), csr_array(both[1::2])
@@ -138,8 +154,24 @@ class Nitsche(Imposition):
             return np.empty(0, dtype=np.int64)
         return np.unique(self.ghost.nonzero()[0])
 
+    @property
+    def bends(self) -> bool:
+        """See `Imposition.bends`: with the stress of finite strain."""
+        return self.edge is not None
+
+    def _slopes(self, state: State) -> tuple[Ints, Floats]:
+        """Unknowns (m, L) and slopes (m, 2, L) of the average traction by them.
+
+        How slopes change themselves counts in no matrix: times jumps that are held it is little.
+        """
+        if self.edge is not None:
+            return self.edge.unknowns, self.edge.slopes(state.deformation)
+        return in_global_axes(self.fluxes, state.frames)
+
     def _traction(self, state: State) -> Floats:
         """Average traction (m, 2) on the first side (Pa)."""
+        if self.edge is not None:
+            return self.edge.traction(state.deformation)
         unknowns, flux = in_global_axes(self.fluxes, state.frames)
         return contract("mcl,ml->mc", flux, state.deformation[unknowns])
 

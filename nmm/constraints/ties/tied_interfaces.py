@@ -48,6 +48,7 @@ class TiedInterfaces(Effect):
         self.jumps = KeptJumps(ties)
         # Multipliers hold jumps of lines.
         self._turning_model = None if any(tie.shared is not None for tie in ties) else turning
+        self._bends = any(tie.bends for tie in ties)
         self._n = n_unknowns
         self._kept: tuple[Floats, csc_array] | None = None  # the matrix, at angles
         self._spaces = list({id(t.shared): t.shared for t in ties if t.shared}.values())
@@ -83,11 +84,11 @@ class TiedInterfaces(Effect):
     def matrix(self, state: State) -> csc_array:
         """Return the stiffness of all ties, the same object as long as no tied body turns."""
         kept = self._kept
-        if kept is not None and not len(self._turning):
+        if kept is not None and not len(self._turning) and not self._bends:
             return kept[1]
-        angle = state.frames.angle[self._turning]
-        if kept is None or not np.array_equal(kept[0], angle):
-            kept = self._kept = angle, self._stiffness(state)
+        known = state.deformation if self._bends else state.frames.angle[self._turning]
+        if kept is None or not np.array_equal(kept[0], known):
+            kept = self._kept = known, self._stiffness(state)
         return kept[1]
 
     def _stiffness(self, state: State) -> csc_array:
@@ -105,15 +106,16 @@ class TiedInterfaces(Effect):
 
     @property
     def nonlinear(self) -> bool:
-        """See `Effect.nonlinear`: where bodies turn."""
-        return self._turning_model is not None
+        """See `Effect.nonlinear`: where bodies turn, or held matter bends by any angle."""
+        return self._turning_model is not None or self._bends
 
     def step_force(self, before: State, after: State, span: Span) -> StepForce:
         """See `Effect.step_force`: forces at both ends of the step, where bodies are half way.
 
         There these keep angular momentum of two bodies that are tied.
         """
-        assert self._turning_model is not None
+        if self._turning_model is None:
+            return self._bent_force(before, after, span)
         at = middle(before, after) if span.half else after
         turned = turned_axes(self._turning_model, before, at)
         late = self._pulls(after, Instant.of(after))
@@ -129,6 +131,16 @@ class TiedInterfaces(Effect):
             return csc_array(span.weight * (turned.T @ self._stiffness(at) @ turned))
 
         return StepForce(turned.T @ total, stiffness, rounding=rounding)
+
+    def _bent_force(self, before: State, after: State, span: Span) -> StepForce:
+        """Return the same of matter that bends, in axes that stay."""
+        total = span.weight * self.force(after, Instant.of(after))
+        if span.weight < 1:
+            total += (1 - span.weight) * self.force(before, Instant.of(before))
+        rounding = np.zeros(self._n)
+        for tie in self.ties:
+            rounding += np.abs(tie.interface.spread(after, rounded(tie, after)))
+        return StepForce(total, lambda: span.weight * self.matrix(after), rounding=rounding)
 
     def work_correction(self, before: State, after: State, increment: Floats, span: Span) -> float:
         now, end = Instant.of(before), Instant.of(after)

@@ -23,7 +23,8 @@ class SupportMethod(Frozen):
     method: PartName = Field(
         default="auto",
         description=f'"auto", "penalty", "nitsche", "lagrange" {OWN}; auto is Nitsche\'s method '
-        "for meshes of linear materials, else springs",
+        "for meshes of linear materials, and of finite strain in statics without contact, else "
+        "springs",
         examples=["nitsche"],
     )
     stiffness: Number | None = Field(

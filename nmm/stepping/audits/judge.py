@@ -18,6 +18,7 @@ from nmm.stepping.audits.matter.splitting import splitting
 from nmm.stepping.audits.matter.strains import strains
 from nmm.stepping.audits.paths import paths
 from nmm.stepping.audits.steps import steps
+from nmm.stepping.audits.supports import supports
 from nmm.stepping.drive.verdict import CONVERGED, FAILURE, UNBALANCED, RunVerdict
 
 AUDITS: tuple[Callable[[EndedRun], Findings], ...] = (
@@ -34,6 +35,7 @@ AUDITS: tuple[Callable[[EndedRun], Findings], ...] = (
     splitting,
     steps,
     strains,
+    supports,
 )
 
 

@@ -171,6 +171,12 @@ THRESHOLDS: dict[str, Threshold] = {
         None,
         'contact, and bodies that turned in dynamics, unless `[rotation] update = "finite"`',
     ),
+    "soft_supports": Threshold(
+        "energy in springs that hold edges where a run ends, over that of the matter they hold",
+        2e-3,
+        None,
+        "supports along edges of meshes by springs",
+    ),
     "kept_whole": Threshold(
         "largest share of its strength that a block uses where a run ends, and splits no more",
         1.1,

@@ -39,19 +39,21 @@ def unstable(factor: Factor, elastic: csc_array, increment: Floats) -> bool:
     Parameters
     ----------
     factor
-        Of the tangent (n, n).
+        Of the tangent (n, n), or of it with conditions of multipliers beside it: motions are then
+        those that keep them.
     elastic
         (n, n) stiffness where nothing has moved, by which motions are measured: functions that are
         dependent have none in either.
     increment
         (n,) unknowns of the step, with which the search begins: they have a share of what is soft.
     """
-    way, tangent = increment, factor.matrix
-    if tangent.shape != elastic.shape:  # conditions join it, and no pivot tells
-        return False
+    way, tangent, n = increment, factor.matrix, len(increment)
     for _ in range(INVERSE_ITERATIONS):
         size = float(way @ (elastic @ way))
         if not 0 < size < np.inf:
             return False
-        way = factor.refined(elastic @ way / np.sqrt(size))
-    return bool(way @ (tangent @ way) < -NONE * (way @ (elastic @ way)))
+        load = np.zeros(tangent.shape[0])
+        load[:n] = elastic @ way / np.sqrt(size)
+        way = factor.refined(load)[:n]
+    stiffness = csc_array(tangent[:n, :n])
+    return bool(way @ (stiffness @ way) < -NONE * (way @ (elastic @ way)))
