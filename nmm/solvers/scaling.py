@@ -11,7 +11,7 @@ from nmm.solvers.unchecked import largest, made_of
 
 def jacobi_scale(matrix: csc_array) -> Floats:
     """(n,) ``1/sqrt(|a_ii|)``; the largest entry of the column stands in for a zero diagonal."""
-    diagonal = np.abs(matrix.diagonal())
+    diagonal = np.abs(_diagonal(matrix))
     if (diagonal == 0.0).any():
         column = largest(matrix)
         diagonal = np.where(diagonal > 0, diagonal, np.where(column > 0, column, 1.0))
@@ -48,7 +48,7 @@ def scaled(matrix: csc_array, scale: Floats, shift: float) -> csc_array:
 
 def _scaled_data(matrix: csc_array, scale: Floats, shift: float) -> tuple[Floats, int]:
     """Scaled entries, the shift added to those on the diagonal, and the number of these."""
-    if "numba" in sys.modules and matrix.indices.dtype == np.int32:
+    if _compiles(matrix):
         from nmm.solvers.kernels.scaling_kernel import scaled_data
 
         return scaled_data(matrix.indptr, matrix.indices, matrix.data, scale, shift)
@@ -57,3 +57,17 @@ def _scaled_data(matrix: csc_array, scale: Floats, shift: float) -> tuple[Floats
     diagonal = np.flatnonzero(matrix.indices == column)
     data[diagonal] += shift
     return data, len(diagonal)
+
+
+def _diagonal(matrix: csc_array) -> Floats:
+    """(n,) entries on the diagonal."""
+    if _compiles(matrix):
+        from nmm.solvers.kernels.scaling_kernel import diagonal
+
+        return diagonal(matrix.indptr, matrix.indices, matrix.data)
+    return np.asarray(matrix.diagonal())
+
+
+def _compiles(matrix: csc_array) -> bool:
+    """Whether the process has imported compiled code, and it is made for the matrix."""
+    return "numba" in sys.modules and bool(matrix.indices.dtype == np.int32)

@@ -11,7 +11,12 @@ from functools import cached_property
 import numpy as np
 
 from integration.arrays import Bools, Floats
-from nmm.compiled import compiled
+from nmm.contact.iteration.interior_kernels import (
+    PointColumns,
+    SideColumns,
+    longest,
+    mean_product,
+)
 from nmm.contact.problem.coulomb import frictionless, shear_bound
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 
@@ -38,8 +43,13 @@ class InteriorIterate:
 
     def moved(self, step: "InteriorIterate", length: float) -> "InteriorIterate":
         """Point at ``length`` along ``step``."""
-        pairs = zip(vars(self).values(), vars(step).values(), strict=True)
+        pairs = zip(self.columns, step.columns, strict=True)
         return InteriorIterate(*(own + length * way for own, way in pairs))
+
+    @property
+    def columns(self) -> PointColumns:
+        """The same as compiled code takes it."""
+        return self.increment, self.normal, self.shear, self.slack, self.flow
 
 
 @dataclass(frozen=True)
@@ -82,15 +92,21 @@ class Complementarity:
         """(2, m) compliance (m/N) of springs; 0 of exact contacts."""
         return np.where(self.exact, 0.0, self.compliance)
 
-    def mean(self, point: InteriorIterate) -> float:
-        """Mean product of slack and flow (J)."""
-        count = int(self.active.sum())
-        return float((point.slack * point.flow)[self.active].sum() / max(count, 1))
+    def columns(self, soft: float) -> SideColumns:
+        """The same as compiled code takes it; exact contacts give way as springs a bit ``soft``."""
+        give = np.where(self.exact, soft * self.compliance, self.give)
+        return SideColumns(self.active, self.smooth, self.give, give, self.compliance)
+
+    def mean(
+        self, point: InteriorIterate, step: InteriorIterate | None = None, length: float = 0.0
+    ) -> float:
+        """Mean product of slack and flow (J) at a point, or a ``length`` along a step from it."""
+        way = (step or point).columns
+        return float(mean_product(self.active, point.columns, way, float(length)))
 
     def length(self, point: InteriorIterate, step: InteriorIterate) -> float:
         """Largest part of a step, up to 1, that leaves slack and flow positive."""
-        slack = _longest(self.active, point.slack, step.slack)
-        return float(min(slack, _longest(self.active, point.flow, step.flow)))
+        return float(longest(self.active, point.columns, step.columns))
 
     def bound(self, normal: Floats, slack: Floats, flow: Floats) -> Floats:
         """Bound of the shear force; the cohesion of an unbonded contact counts while it closes.
@@ -149,14 +165,3 @@ class Complementarity:
         return IterationResult(
             carried, increment, carried.residual(increment).size, 0, 0, "", error
         )
-
-
-@compiled
-def _longest(active: Bools, value: Floats, change: Floats) -> float:
-    """Largest part of a change (3, m), up to 1, that leaves all active values positive."""
-    longest = 1.0
-    for side in range(len(active)):
-        for c in range(active.shape[1]):
-            if active[side, c] and change[side, c] < 0.0:
-                longest = min(longest, -value[side, c] / change[side, c])
-    return longest

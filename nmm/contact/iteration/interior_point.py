@@ -17,6 +17,7 @@ import numpy as np
 
 from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
 from nmm.contact.iteration.interior_equations import Linearised
+from nmm.contact.iteration.interior_kernels import recentred
 from nmm.contact.iteration.newton.semismooth_newton import polish
 from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.cut_springs import IterationResult
@@ -81,6 +82,7 @@ class InteriorPoint:
         kind = tools.memory.moving and not sides.exact.any()
         self.inside = self.linear.rough() if kind else self.linear
         self.sides, self.pattern = sides, tools.memory.pattern_of(sides.springs.problem)
+        self.laid = self.pattern.laid(sides.springs.problem)
         self.keep = tools.memory.keep_tangent
         self.factorisations = self.solves = 0
         self.reached: InteriorIterate
@@ -176,22 +178,20 @@ class InteriorPoint:
     ) -> tuple[InteriorIterate, float]:
         """Point after predictor, corrector and corrections of centrality, and how far it went."""
         sides, options, products = self.sides, self.options, point.slack * point.flow
-        system = Linearised(sides, self.pattern, self.inside, point, options.soft, not jammed)
+        system = Linearised(sides, self.laid, self.inside, point, options.soft, not jammed)
         affine = system.step(-products)
         if not np.isfinite(affine.increment).all():
             return affine, 0.0
         ahead = sides.length(point, affine)
-        shrink = (sides.mean(point.moved(affine, ahead)) / kappa) ** 3
+        shrink = (sides.mean(point, affine, ahead) / kappa) ** 3
         centre = max(floor, kappa * (1.0 if jammed else min(max(shrink, 1e-8), 1.0)))
         along = affine.slack * affine.flow if ahead > options.jam and not jammed else 0.0
         targets = centre - along - products
         step = system.step(targets)
         length = min(1.0, options.boundary * sides.length(point, step))
         for _ in range(options.corrections):
-            tried = point.moved(step, min(1.0, length + options.reach))
-            off = tried.slack * tried.flow
-            wanted = np.clip(off, centre / options.spread, centre * options.spread) - off
-            targets = targets + np.maximum(wanted, -options.spread * centre)
+            tried = min(1.0, length + options.reach), centre, options.spread
+            targets = recentred(targets, point.columns, step.columns, *map(float, tried))
             longer = system.step(targets)
             reached = min(1.0, options.boundary * sides.length(point, longer))
             if reached < length + options.gain:

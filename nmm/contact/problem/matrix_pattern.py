@@ -89,17 +89,15 @@ class SpringPattern:
         self, problem: StepProblem, normal: Floats, shear: Floats, mixed: Floats | None = None
     ) -> csc_array:
         """``matrix + Gn^T diag(normal) Gn + Gt^T diag(shear) Gt + Gt^T diag(mixed) Gn``."""
+        return self.laid(problem).matrix(normal, shear, mixed)
+
+    def laid(self, problem: StepProblem) -> "LaidProblem":
+        """Return the numbers of a problem at their places."""
         data = np.zeros(len(self.indices))
         data[self.matrix_place] = problem.matrix.data
-        rows = (
-            self._in_full(problem.normal_rows.data, self.normal_place),
-            self._in_full(problem.tangent_rows.data, self.tangent_place),
-        )
-        cross = np.zeros(len(normal)) if mixed is None else mixed
-        add_springs(data, self.unknowns, self.run_start, rows[0], rows[1], normal, shear, cross)
-        made = made_of(csc_array, data, self.indices, self.indptr, problem.matrix.shape)
-        made.has_sorted_indices = True  # or each matrix is looked through for it
-        return made
+        normal = self._in_full(problem.normal_rows.data, self.normal_place)
+        tangent = self._in_full(problem.tangent_rows.data, self.tangent_place)
+        return LaidProblem(self, data, normal, tangent)
 
     def _in_full(self, entries: Floats, places: Index) -> Floats:
         """Entries (m, L) of rows at their places; those of full rows stand there already."""
@@ -115,6 +113,37 @@ class SpringPattern:
         ascending = np.arange(self.unknowns.size)
         pairs = self.normal_place, self.tangent_place
         return all(np.array_equal(places, ascending) for places in pairs)
+
+
+@dataclass(frozen=True)
+class LaidProblem:
+    """Numbers of a problem in a pattern, to which springs of any stiffness are added.
+
+    Attributes
+    ----------
+    pattern
+        Where they stand.
+    data
+        Entries of the matrix without springs.
+    normal, tangent
+        (m, L) entries of the rows.
+    """
+
+    pattern: SpringPattern
+    data: Floats
+    normal: Floats
+    tangent: Floats
+
+    def matrix(self, normal: Floats, shear: Floats, mixed: Floats | None = None) -> csc_array:
+        """See `SpringPattern.matrix`."""
+        pattern, data = self.pattern, self.data.copy()
+        cross = np.zeros(len(normal)) if mixed is None else mixed
+        rows = self.normal, self.tangent
+        add_springs(data, pattern.unknowns, pattern.run_start, *rows, normal, shear, cross)
+        n = len(pattern.indptr) - 1
+        made = made_of(csc_array, data, pattern.indices, pattern.indptr, (n, n))
+        made.has_sorted_indices = True  # or each matrix is looked through for it
+        return made
 
 
 def _sources(problem: StepProblem) -> tuple[npt.NDArray[Any], ...]:

@@ -46,8 +46,9 @@ def pushed(
     normal_rows: csr_array, tangent_rows: csr_array, normal: Floats, shear: Floats
 ) -> Floats:
     """(n,) ``normal_rows.T @ normal + tangent_rows.T @ shear``: what forces (N) do on unknowns."""
-    rows, n = (compressed(normal_rows), compressed(tangent_rows)), normal_rows.shape[1]
-    return np.asarray(_pushed(*rows, normal, shear, n))
+    found = np.zeros(normal_rows.shape[1])
+    push(compressed(normal_rows), compressed(tangent_rows), normal, shear, found)
+    return found
 
 
 @compiled
@@ -62,15 +63,14 @@ def products_along(rows: Compressed, x: Floats, found: Floats) -> None:
 
 
 @compiled
-def _pushed(
-    normal_rows: Compressed, tangent_rows: Compressed, normal: Floats, shear: Floats, n: int
-) -> Floats:
+def push(
+    normal_rows: Compressed, tangent_rows: Compressed, normal: Floats, shear: Floats, found: Floats
+) -> None:
+    """Add what normal and shear forces (m,) do to ``found`` (n,)."""
     normal_pointers, normal_columns, normal_entries = normal_rows
     tangent_pointers, tangent_columns, tangent_entries = tangent_rows
-    found = np.zeros(n)
     for c in range(len(normal)):
         for k in range(place(normal_pointers[c]), place(normal_pointers[c + 1])):
             found[place(normal_columns[k])] += normal_entries[k] * normal[c]
         for k in range(place(tangent_pointers[c]), place(tangent_pointers[c + 1])):
             found[place(tangent_columns[k])] += tangent_entries[k] * shear[c]
-    return found

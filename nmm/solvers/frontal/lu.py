@@ -14,6 +14,7 @@ from nmm.solvers.frontal.ordering import orders
 from nmm.solvers.frontal.symbolic import any_plan
 from nmm.solvers.libraries.superlu import DefiniteSolver, SuperLU
 from nmm.solvers.linear import sorted_rows
+from nmm.solvers.unchecked import product
 
 TRUSTED = 1e-5
 """Largest residual of a load of ones of either sign. On contact problems SuperLU leaves as much
@@ -74,10 +75,9 @@ class RoughLU(FrontalLU):
 
 
 def _residual(matrix: csc_array, found: Decomposition) -> float:
-    """Largest residual of a load of ones of either sign; infinite for numbers that are not."""
+    """Largest residual of a load of ones of either sign; above nothing for what is no number."""
     load = _ones(matrix.shape[0])
-    rest = np.abs(load - matrix @ found.solve(load))
-    return float(rest.max()) if np.isfinite(rest).all() else np.inf
+    return float(np.abs(load - product(matrix, found.solve(load))).max())
 
 
 @lru_cache(maxsize=4)

@@ -1,4 +1,4 @@
-"""Scaled copy of a matrix in one sweep of compiled code."""
+"""Diagonal of a matrix and a scaled copy of it, each in one sweep of compiled code."""
 
 import numpy as np
 
@@ -25,3 +25,14 @@ def scaled_data(
                 found[k] += shift
                 diagonals += 1
     return found, diagonals
+
+
+@compiled
+def diagonal(indptr: Index, indices: Index, data: Floats) -> Floats:
+    """Entries (n,) on the diagonal of compressed columns."""
+    found = np.zeros(len(indptr) - 1)
+    for j in range(len(found)):
+        for k in range(place(indptr[j]), place(indptr[j + 1])):
+            if indices[k] == j:
+                found[j] += data[k]
+    return found

@@ -1,7 +1,7 @@
 """How the update of a child's front joins the front of its parent: by runs of rows."""
 
 from integration.arrays import Floats, Ints
-from nmm.compiled import compiled
+from nmm.compiled import compiled, place
 
 
 @compiled
@@ -62,7 +62,7 @@ def collect_whole(
             _add(update, column * r - c, child[j * size :], start[inner], rows, moves)
             for p in range(inner):
                 for i in range(start[p], start[p + 1]):
-                    beside[(i + shift[p]) * r + column] += child[j * size + i]
+                    beside[place((i + shift[p]) * r + column)] += child[place(j * size + i)]
 
 
 @compiled

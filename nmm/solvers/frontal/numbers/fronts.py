@@ -9,7 +9,7 @@ whether there is room for exchanges, ``swaps``; the two share all that runs over
 import numpy as np
 
 from integration.arrays import Floats, Index, Ints
-from nmm.compiled import compiled
+from nmm.compiled import compiled, place
 from nmm.solvers.frontal.numbers import blas
 from nmm.solvers.frontal.numbers.blas import Outside
 from nmm.solvers.frontal.numbers.extend_add import collect_lower, collect_whole, runs
@@ -35,7 +35,7 @@ def factorise(
     symmetric = len(swaps) == 0
     panels[: panel_start[-1] if symmetric else beside_start[-1]] = 0.0
     for k in range(len(source)):
-        panels[target[k]] += data[source[k]]
+        panels[place(target[k])] += data[place(source[k])]
     count = len(first) - 1
     held = np.empty(count, dtype=np.int64)  # supernodes whose updates are on the stack
     base = np.empty(count + 1, dtype=np.int64)
@@ -71,13 +71,13 @@ def factorise(
         if bad != 0:
             return int(first[s] + bad - 1)
         if r > 0:
-            place = base[n_held]
+            bottom = base[n_held]
             if n_children[s] > 0:
                 for k in range(r * r):  # down to where the children's updates were
-                    stack[place + k] = update[k]
+                    stack[bottom + k] = update[k]
             held[n_held] = s
             n_held += 1
-            base[n_held] = place + r * r
+            base[n_held] = bottom + r * r
     return -1
 
 
