@@ -18,7 +18,7 @@ from nmm.scene import read_scene
 from nmm.solvers.threads import OneThread
 from nmm.stepping.drive.verdict import SPENT
 from nmm.stepping.prepare import prepare
-from nmm.stepping.run import Run, finished
+from nmm.stepping.run import Run, finished, refuse_no_seconds
 from nmm.trust import allowing, given
 
 GOES_ON = (RUNNING, STOPPED, SPENT, UNKNOWN)
@@ -55,6 +55,7 @@ def resume(
     path = Path(folder)
     if isinstance(allow_code, str):
         raise TypeError(f"nmm.resume: allow_code {allow_code!r}: expected a list of names")
+    refuse_no_seconds(budget)
     with warnings.catch_warnings():
         # What a kill has left unfinished is written anew.
         warnings.simplefilter("ignore", NmmWarning)

@@ -110,7 +110,8 @@ def run(
     Raises
     ------
     TypeError
-        When something else than a scene or a formulation is given, such as the name of a file.
+        When something else than a scene or a formulation is given, such as the name of a file, or
+        a budget that is no number of seconds.
     NmmError
         When scene or formulation cannot be run at all. A run that starts ends with a summary whose
         status is a key of `nmm.stepping.drive.verdict.MEANT` and whose sentence says why.
@@ -123,6 +124,7 @@ def run(
         _refuse_other(formulation, "Formulation", "nmm.read_formulation")
     if isinstance(allow_code, str):
         raise TypeError(f"nmm.run: allow_code {allow_code!r}: expected a list of names of modules")
+    refuse_no_seconds(budget)
     modules = given().modules.union(allow_code)
     # With several threads sums differ in their last digits from one number of threads to another.
     with allowing(*modules, folder=beside(scene.source.name, modules)), OneThread():
@@ -188,3 +190,12 @@ def finished(
 def _refuse_other(given: object, kind: str, reader: str) -> None:
     if type(given).__name__ != kind:
         raise TypeError(f"nmm.run: {given!r}: expected a {kind}: read a file by {reader}(path)")
+
+
+def refuse_no_seconds(budget: float | None) -> None:
+    """Refuse a budget that is no number of seconds: one that is nan was spent at once."""
+    if budget is not None and not (isinstance(budget, int | float) and budget >= 0):
+        raise TypeError(
+            f"budget {budget!r}: expected a number of seconds, 0 or more: write for example "
+            "budget=60"
+        )

@@ -19,6 +19,7 @@ from nmm.plots.canvas import (
 )
 from nmm.plots.results.blocks import blocks, material_handles
 from nmm.plots.results.broken import broken_parts, sliding_parts
+from nmm.plots.results.frame_of import frame_of
 from nmm.plots.shapes import draw_blocks, line_width
 from nmm.results.frame import Frame, Topology
 from nmm.results.sink import RunData
@@ -60,7 +61,7 @@ def deformed(
     title
         Title; load factor or time and the magnification are added.
     """
-    shown = run.frames[frame]
+    shown = frame_of(run, frame)
     topology = run.topologies[shown.topology]
     factor = magnification or visible(shown, topology)
     polygons = magnified(shown, topology, factor)

@@ -18,6 +18,7 @@ from nmm.plots.canvas import (
     frame_plane,
 )
 from nmm.plots.results.deformed import magnified, moment
+from nmm.plots.results.frame_of import frame_of
 from nmm.plots.shapes import draw_lines, fill, line_width
 from nmm.plots.units import label, prefixed, words_of
 from nmm.results.frame import Frame, Topology
@@ -77,7 +78,7 @@ def stress(
     NmmError
         When the component is none of these.
     """
-    shown = run.frames[frame]
+    shown = frame_of(run, frame)
     topology = run.topologies[shown.topology]
     values, unit = _chosen(shown, topology, component)
     factor, unit = prefixed(values, unit)

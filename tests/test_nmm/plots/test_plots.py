@@ -408,3 +408,11 @@ def test_numbers_beside_a_flat_picture_do_not_cover_each_other():
     boxes = [tick.label1.get_window_extent() for tick in panels[0].yaxis.get_major_ticks()]
     seen = sorted((box.y0, box.y1) for box in boxes)
     assert all(low[1] < high[0] for low, high in pairwise(seen))
+
+
+@pytest.mark.parametrize("draw", [plots.deformed, plots.stress, plots.contact_forces])
+def test_a_frame_that_is_not_there_is_refused_and_so_is_what_is_no_run(draw, memory_run):
+    with pytest.raises(NmmError, match=r"frame 77: expected one of the 4 frames .* from 0 to 3"):
+        draw(memory_run, frame=77)
+    with pytest.raises(TypeError, match=r"'runs/a': expected a run: read a folder by nmm\.read"):
+        draw("runs/a")

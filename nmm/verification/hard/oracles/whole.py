@@ -57,7 +57,7 @@ def sound(scene: Document, way: str) -> Checks:
         return {"refused before it runs": holds(named, str(error))}
     checks = _gave_up(found.run) | _records(found.run) | _named(scene, found.run)
     checks |= _finite(found.run)
-    if found.run.summary.status in SURE and found.run.history:
+    if found.run.summary.status in SURE and found.run.summary.steps:
         checks |= _balance(scene, found)
         checks |= {} if "contact" not in scene or _springy(scene) else _apart(found.run)
         checks |= seen_again(scene, found, way)

@@ -114,7 +114,7 @@ def test_a_structure_without_support_is_refused_by_the_solution_not_answered() -
     run = nmm.run(nmm.parse_scene(text))
     assert run.summary.status == "collapsed"
     assert "singular" in run.summary.sentence
-    assert len(run.history) == 0
+    assert len(run.history["step"]) == 0
 
 
 def test_the_name_of_a_file_is_no_scene() -> None:
@@ -158,3 +158,9 @@ def test_the_summary_estimates_the_condition_of_the_system_with_its_joints() -> 
     assert found is not None
     # Supports of 1000 E beside blocks of 1 E, Jacobi-scaled: between 1 and their product squared.
     assert 1 < found < 1e8
+
+
+@pytest.mark.parametrize("budget", ["10 s", -1.0, float("nan")])
+def test_a_budget_that_is_no_number_of_seconds_is_refused(budget, bar_text):
+    with pytest.raises(TypeError, match=r"budget .*: expected a number of seconds, 0 or more"):
+        nmm.run(nmm.parse_scene(bar_text()), budget=budget)
