@@ -12,7 +12,7 @@ from nmm.contact.detection.contacts import FACE, Contacts
 from nmm.contact.detection.surface import Surface, unordered_key
 from nmm.contact.detection.tolerances import JOINT_LEFT, WHOLLY_HELD
 from nmm.contact.points.between_faces import JointFaces
-from nmm.contact.points.contact_points import ContactPoints, concatenate
+from nmm.contact.points.contact_points import TIED, ContactPoints, concatenate
 from nmm.contact.problem.step_problem import BROKEN
 
 
@@ -36,7 +36,8 @@ class JointBook:
         bounds the corner's way unless bonds hold it.
     pair_beyond
         (k,) whether consistent terms hold the joint at points within it: its ends lie beyond them,
-        and bear as soon as one of its bonds broke. On its points alone it would turn over before.
+        and bear as soon as one of its bonds broke or softens. On its points alone it would turn
+        over before.
     lost
         Points of joints that came apart; the search finds what touches there.
     left
@@ -66,29 +67,34 @@ class JointBook:
         """
         if not len(self.pairs):
             return np.zeros(len(found), dtype=bool)
-        whole = ~np.isin(self.pair_joint, self.joint[~self.points.bonded])
-        carried = self.pairs[whole | ~(self.pair_kink | self.pair_beyond)]
+        whole, held = (
+            ~np.isin(self.pair_joint, self.joint[~now])
+            for now in (self.points.bonded, self.points.tied)
+        )
+        carried = self.pairs[(whole | ~self.pair_kink) & (held | ~self.pair_beyond)]
         corner, hidden = found.kind != FACE, np.isin(found.key, carried)
         bonded = np.bincount(self.pairs[whole] // n, minlength=n) > 1
         hidden[corner] |= bonded[found.vertex[corner]]
         return hidden
 
     def bearing(self, contacts: ContactPoints) -> Ints:
-        """Return the joints whose ends bear, as bonds of theirs are broken among the contacts."""
+        """Return the joints whose ends bear, as terms hold no longer all of theirs."""
         return np.intersect1d(
-            self.joint[self._broken_among(contacts)], self.pair_joint[self.pair_beyond]
+            self.joint[self._among(contacts, ~contacts.tied)], self.pair_joint[self.pair_beyond]
         )
 
     def without(self, contacts: ContactPoints) -> "JointBook":
-        """Return the book without the bonds that are broken among the contacts."""
-        still = self.points.bonded & ~self._broken_among(contacts)
-        history = {**self.points.history, "bonded": still}
-        return replace(self, points=replace(self.points, history=history))
+        """Return the book without the bonds and the terms that are gone among the contacts."""
+        points = self.points
+        still = points.bonded & ~self._among(contacts, ~contacts.bonded)
+        history = {**points.history, "bonded": still}
+        if TIED in history:
+            history[TIED] = np.where(self._among(contacts, ~contacts.tied), 0.0, history[TIED])
+        return replace(self, points=replace(points, history=history))
 
-    def _broken_among(self, contacts: ContactPoints) -> Bools:
-        """Which points (m,) are without a bond among contacts of a step."""
-        gone = contacts.is_joint & ~contacts.bonded
-        return np.isin(self.points.key, contacts.key[gone])
+    def _among(self, contacts: ContactPoints, chosen: Bools) -> Bools:
+        """Which points (m,) are among the chosen contacts (k,) of a step."""
+        return np.isin(self.points.key, contacts.key[contacts.is_joint & chosen])
 
     def edges(self, n: int) -> Ints:
         """Pairs of edges that followed joints carry, ``a * n + b`` with ``a < b``, sorted."""

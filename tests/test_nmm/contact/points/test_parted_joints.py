@@ -137,3 +137,20 @@ def test_a_block_on_a_broken_joint_turns_over_about_its_corner(share: float, sta
     weight, width, height = 2500 * 9.81 * 2.0, 1.0, 2.0
     push = weight * (width / 2) / height
     assert nmm.run(nmm.parse_scene(PUSHED % (share * push))).summary.status == status
+
+
+SOFTENING = """law = "linear_softening"
+fracture_energy = "100 J/m^2"
+"""
+
+
+@pytest.mark.slow
+def test_a_block_on_a_softening_joint_turns_over_about_its_corner_against_both_bonds() -> None:
+    """They open by 20 mm before all is lost, and pull with their strength in the joint's middle."""
+    weight, width, height, strength = 2500 * 9.81 * 2.0, 1.0, 2.0, 10e3
+    push = (weight + strength * width) * (width / 2) / height
+    scene = PUSHED.replace("[[blocks]]", SOFTENING + "[[blocks]]", 1) % (2 * push)
+    given = nmm.Formulation.model_validate({"loading": {"increment": 0.1}})
+    found = nmm.run(parse_scene(scene + '[loading]\nscaled = ["push"]\n'), given).summary
+    # The joint's points lie in its plane, blocks shear by 1e-5; the search stops at 0.3 %.
+    assert found.failure_load == pytest.approx(push, rel=0.01)
