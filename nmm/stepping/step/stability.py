@@ -21,11 +21,11 @@ NONE = 1e-12
 
 
 def unless_unstable(
-    attempt: Attempt, equations: Equations, factor: Factor, elastic: csc_array
+    attempt: Attempt, equations: Equations, factor: Factor, elastic: csc_array, measure: csc_array
 ) -> Attempt:
     """Return an attempt, failed where statics came to rest unstably; see `unstable`."""
     asked = attempt.converged and equations.step is None and equations.symmetric
-    if not asked or not unstable(factor, elastic, attempt.increment):
+    if not asked or not unstable(factor, elastic, attempt.increment, measure):
         return attempt
     sentence = "the equilibrium that was found is not stable"
     return replace(
@@ -33,7 +33,7 @@ def unless_unstable(
     )
 
 
-def unstable(factor: Factor, elastic: csc_array, increment: Floats) -> bool:
+def unstable(factor: Factor, elastic: csc_array, increment: Floats, measure: csc_array) -> bool:
     """Say whether a symmetric tangent has a motion that it drives on.
 
     Parameters
@@ -45,9 +45,18 @@ def unstable(factor: Factor, elastic: csc_array, increment: Floats) -> bool:
         (n, n) stiffness where nothing has moved, by which motions are measured: functions that are
         dependent have none in either.
     increment
-        (n,) unknowns of the step, with which the search begins: they have a share of what is soft.
+        (n,) unknowns of the step, with which the search begins: they have a share of what is soft,
+        but where nothing leads there, as in a straight column.
+    measure
+        (n, n) mass of a density of one: what an arbitrary load on the volume moves is soft too.
     """
-    way, tangent, n = increment, factor.matrix, len(increment)
+    tangent, n = factor.matrix, len(increment)
+    load = np.zeros(tangent.shape[0])
+    load[:n] = measure @ np.random.default_rng(0).standard_normal(n)
+    way = np.zeros(n)
+    for one in (increment, factor.refined(load)[:n]):
+        size = float(one @ (elastic @ one))
+        way += one / np.sqrt(size) if size > 0 else 0.0
     for _ in range(INVERSE_ITERATIONS):
         size = float(way @ (elastic @ way))
         if not 0 < size < np.inf:

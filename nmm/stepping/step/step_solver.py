@@ -200,7 +200,8 @@ class StepSolver:
             return equations, found
         from nmm.stepping.step.stability import unless_unstable
 
-        return equations, unless_unstable(found, equations, factor, matter.elastic_stiffness)
+        elastic, measure = matter.elastic_stiffness, current.model.measure
+        return equations, unless_unstable(found, equations, factor, elastic, measure)
 
     def along(self, state: State, path: "PathEquation", rule: Integrator, reach: float) -> Attempt:
         """Solve a step of statics along a path (`nmm.contact.following`)."""

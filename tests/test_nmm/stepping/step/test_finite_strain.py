@@ -128,17 +128,31 @@ def test_a_strip_bends_as_the_elastica_in_one_increment(load_of_one, rise, short
     assert found.summary.passes <= 12
 
 
-@pytest.mark.parametrize("method", ["auto", "lagrange"])
-def test_a_column_bends_over_beyond_its_critical_load(method):
+def pushed_column(method, across):
+    """A column under 1.15 of its critical load, a share of it ``across``, in two leaps."""
     load_of_one = 1.1517196205 * np.pi**2 / 4
     column = cantilever(10, 0.1, load_of_one).splitlines()
     push = load_of_one * 1e6 * 0.1**2 / 12 / 100
     at = next(n for n, line in enumerate(column) if line.startswith("traction"))
-    column[at] = f"traction = [{-push}, {1e-3 * push}]"
+    column[at] = f"traction = [{-push}, {across * push}]"
     cover = 'type = "quads"\nsize = 0.5\ndegree = 2'
-    # Increments that leap over the critical load must not end on the straight column.
     more = f'[loading]\nincrement = 0.5\n[supports]\nmethod = "{method}"\n'
-    found = run("\n".join(column), cover, more=more)
+    return run("\n".join(column), cover, more=more)
+
+
+@pytest.mark.parametrize("method", ["auto", "lagrange"])
+def test_a_straight_column_is_given_up_at_its_critical_load(method):
+    found = pushed_column(method, 0.0)
+    assert found.summary.status == "collapsed"
+    assert "not stable" in found.summary.sentence
+    # Euler's; shear of a hundredth of its length takes 1e-4.
+    assert found.history["load_factor"][-1] == pytest.approx(1 / 1.1517196205, rel=5e-4)
+
+
+@pytest.mark.parametrize("method", ["auto", "lagrange"])
+def test_a_column_bends_over_beyond_its_critical_load(method):
+    # Increments that leap over the critical load must not end on the straight column.
+    found = pushed_column(method, 1e-3)
     assert found.summary.status == "converged", found.summary.sentence
     assert found.history["monitor:tip:uy"][-1] / 10 == pytest.approx(0.5932076462, abs=1e-2)
     assert found.history["monitor:tip:ux"][-1] / 10 == pytest.approx(-0.2589803939, abs=1e-2)

@@ -63,7 +63,7 @@ fix = ["x", "y"]
 [[loads]]
 name = "weight"
 kind = "body"
-density = [0, -1e5]
+density = [1e3, -1e5]
 [loading]
 until = "failure"
 [formulation.cover]
