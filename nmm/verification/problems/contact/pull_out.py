@@ -97,7 +97,8 @@ class AnchorPullOut(SceneCase):
 def _broken(run: "Run") -> tuple[float, Floats]:
     """Distance (m) of the first joint that breaks from a corner, and pulls (Pa) as joints break.
 
-    A frame is an event: what is broken in the next one is at its strength in this one.
+    A frame is an event: what is broken in the next one is at its strength in this one. Points of
+    joints come first and stay; contacts of bodies that meet come and go behind them.
     """
     from nmm.contact.problem.step_problem import BROKEN
 
@@ -105,7 +106,9 @@ def _broken(run: "Run") -> tuple[float, Floats]:
     pulls: list[Floats] = []
     for before, after in zip(run.frames[1:-1], run.frames[2:], strict=True):
         broken = int(BROKEN)
-        new = (after.contact_state == broken) & (before.contact_state != broken)
+        kept = min(len(before.contact_state), len(after.contact_state))
+        one, other = before.contact_state[:kept], after.contact_state[:kept]
+        new = np.flatnonzero((other == broken) & (one != broken))
         area = THICKNESS * before.contact_length[new]
         places.append(before.contact_position[new])
         pulls.append(before.contact_force[new, 0] / area)
