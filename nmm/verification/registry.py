@@ -33,6 +33,7 @@ CASES = Registry[type[Case]](
         "A9 bars": f"{_HOME}.solids.cylinders:Bars",
         "A9 disc": f"{_HOME}.solids.cylinders:Core",
         "A10": f"{_HOME}.cracks.stationary_cracks:EdgeCrack",
+        "A10 holes": f"{_HOME}.cracks.cracks_at_holes:CracksAtHole",
         "A11": f"{_HOME}.cracks.stationary_cracks:CentreCrack",
         "A12c": f"{_HOME}.cracks.stationary_cracks:ShearedCrack",
         "A13 exponents": f"{_HOME}.solids.corners:Exponents",
