@@ -28,6 +28,11 @@ def monitor_spectrum(
         When the run has no such monitor, or no steps in time.
     """
     column, history = f"monitor:{monitor}:u{axis}", run.history
+    if not len(history.get("time", ())):
+        raise NmmError(
+            f"monitor {monitor}: the run ended before its first step: expected three steps in time "
+            "or more: see why in its summary.json"
+        )
     if column not in history:
         known = sorted({name.split(":")[1] for name in history if name.startswith("monitor:")})
         raise NmmError(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import json
+import math
 import re
 import tomllib
 from collections.abc import Mapping
@@ -44,6 +45,15 @@ class Source:
         line = self._line(path)
         where = f"{self.name}:{line}" if line else self.name
         return f"{where}: {dotted}" if dotted else where
+
+    def written(self, *path: str | int) -> object:
+        """Value at a key path as the file has it; None where it has none."""
+        value: Any = None
+        with suppress(tomllib.TOMLDecodeError, KeyError, IndexError, TypeError):
+            value = tomllib.loads(self.text)
+            for part in (*self.root, *path):
+                value = value[part]
+        return value
 
     def of_name(self, key: str, name: str, *below: str) -> str:
         """`place` in the table ``[[key]]`` of a given name."""
@@ -93,7 +103,8 @@ def _fault(detail: Any, model: type[BaseModel], source: Source) -> Fault:
     place = source.place(*path)
     kind, context = detail["type"], detail.get("ctx", {})
     if kind == "fault":
-        return Fault(place, context["value"], context["expected"], context["remedy"])
+        value = _as_written(context["value"], source.written(*path))
+        return Fault(place, value, context["expected"], context["remedy"])
     parent, info = _at(model, path)
     if kind == "extra_forbidden":
         known = [name for name, _ in _keys(parent)]
@@ -105,8 +116,17 @@ def _fault(detail: Any, model: type[BaseModel], source: Source) -> Fault:
     sample = table[0] if table else f"{key} = {_sample(info)}"
     if kind == "missing" and isinstance(path[-1], str):
         return Fault(place, "missing", wanted, f"add {sample}")
-    value = "missing" if kind == "missing" else shown(detail["input"])
+    given = _as_written(shown(detail["input"]), source.written(*path))
+    value = "missing" if kind == "missing" else given
     return Fault(place, value, wanted, f"write for example {sample}")
+
+
+def _as_written(value: str, written: object) -> str:
+    """Return a number as the text with a unit that it was read from."""
+    with suppress(ValueError):
+        if isinstance(written, str) and math.isfinite(float(value)):
+            return shown(written)
+    return value
 
 
 def _at(model: type[BaseModel], path: Path) -> tuple[type[BaseModel], FieldInfo | None]:

@@ -109,6 +109,14 @@ def test_the_spectrum_of_a_monitor_is_that_of_its_acceleration():
     assert found.pseudo_acceleration == pytest.approx(exact.pseudo_acceleration, rel=5e-3)
 
 
+def test_a_run_without_a_step_is_refused_as_such():
+    """Its history has no column of a monitor, whatever the monitors of its scene."""
+    ended = Shaken(0.1)
+    ended.history = {"time": np.zeros(0), "step": np.zeros(0)}
+    with pytest.raises(NmmError, match="the run ended before its first step"):
+        monitor_spectrum(ended, "base")
+
+
 def test_wrong_names_and_numbers_are_refused():
     with pytest.raises(NmmError, match="no column monitor:top:ux: expected one of base"):
         monitor_spectrum(Shaken(0.1), "top")
