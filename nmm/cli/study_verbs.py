@@ -37,11 +37,14 @@ def compare(
     quiet: Quiet = False,
     allow_code: AllowCode = None,
 ) -> None:
-    """Draw a scene under several formulations, or scenes of one case, side by side with a table."""
+    """Draw a scene under several formulations, or scenes of one case, side by side with a table.
+
+    Exit code 1 when one of them could not be run, else that of the first run that did not end well.
+    """
     with faults_told(), allowed(scene, allow_code):
         one_thread_only()
         from nmm.study.comparison.page import comparison_page, write_comparison
-        from nmm.study.comparison.runs import compare_cases
+        from nmm.study.comparison.runs import compare_cases, exit_code
 
         with progress_bar(quiet) as progress:
             cases = _compared_cases(scene, formulations or [], beside or [])
@@ -52,6 +55,8 @@ def compare(
                 if line.startswith(("|", "- ")):
                     typer.echo(line)
         tell_files(files)
+    if code := exit_code(study):
+        raise typer.Exit(code)
 
 
 def ablate(

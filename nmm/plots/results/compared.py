@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 WIDEST = 3.0  # points, of the largest contact force
 SMALLEST = 0.01  # of the largest force; below, nothing is drawn
 BAR = (1.03, 0.0, 0.03, 1.0)  # corner and size of a row's scale, of those of its last picture
+ROUNDING = 1e-8  # of the fields, a tolerance of solutions: smaller differences have no picture
 SHARE = 99.5  # percent of the stresses that the scale holds: singular corners would swallow it
 
 
@@ -60,13 +61,15 @@ def field(
 ) -> None:
     """Draw a field of all runs, and below it, where given, its differences from the first run."""
     row = next(lines)
-    limit, unit_text = _images(row, images, extent, unit, signed=False)
+    limit, unit_text = _images(row, images, extent, unit, 0.0, signed=False)
     row[0].set_title(label(words, unit_text), loc="left", fontsize=SMALL - 1)
     if others:
         corner, *row = next(lines)
-        most, unit_text = _images(row, others, extent, unit, signed=True)
-        share = float(f"{100 * most / limit:.2g}")
-        text = f"{words}\nless that of\n{label(first, unit_text)}\n{share:g} % of the scale above"
+        most, unit_text = _images(row, others, extent, unit, ROUNDING * limit, signed=True)
+        share = f"{float(f'{100 * most / limit:.2g}'):g} % of the scale above"
+        if most <= ROUNDING * limit:
+            share = f"no more than\n{share}"
+        text = f"{words}\nless that of\n{label(first, unit_text)}\n{share}"
         corner.set_axis_off()
         told = corner.text(0.5, 0.5, text, transform=corner.transAxes, fontsize=SMALL - 1)
         told.set(ha="center", va="center")
@@ -77,14 +80,18 @@ def _images(
     images: Sequence[Floats],
     extent: Floats,
     unit: str,
+    least: float,
     *,
     signed: bool,
 ) -> tuple[float, str]:
-    """Draw images on one scale, about zero where they are signed; return its end and unit."""
+    """Draw images on one scale, about zero where they are signed; return its end and unit.
+
+    The scale does not end below ``least``.
+    """
     values = np.abs(np.concatenate([image.ravel() for image in images]))
     values = values[np.isfinite(values)]
     limit = float(np.percentile(values, SHARE)) if len(values) else 1.0
-    limit = limit or 1.0
+    limit = max(limit, least) or 1.0
     factor, unit_text = prefixed(np.array([limit]), unit)
     box = (extent[0, 0], extent[1, 0], extent[0, 1], extent[1, 1])
     for axes, image in zip(row, images, strict=True):

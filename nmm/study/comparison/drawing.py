@@ -7,6 +7,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.results.frame import Frame
+from nmm.stepping.drive.verdict import EXIT_CODES
 from nmm.stepping.run import Run
 from nmm.study.comparison.runs import Comparison
 
@@ -39,7 +40,15 @@ def draw(study: Comparison, path: Path) -> None:
         (one.displacement - shown[0].displacement, one.stress - shown[0].stress)
         for one in shown[1:]
     ]
-    comparison(shown, differences, study.raster.extent, title=study.title, curve=(x, y), path=path)
+    title = heading(study)
+    comparison(shown, differences, study.raster.extent, title=title, curve=(x, y), path=path)
+
+
+def heading(study: Comparison) -> str:
+    """Return the title, with the runs whose pictures are no answer and those without a picture."""
+    ends = [(x.name, "not run" if x.run is None else x.run.summary.status) for x in study.runs]
+    bad = [f"{name}: {end}" for name, end in ends if EXIT_CODES.get(end, 1)]
+    return "\n".join(line for line in (study.title, ", ".join(bad)) if line)
 
 
 def cracks(run: Run) -> list[Floats]:

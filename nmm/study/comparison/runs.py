@@ -6,6 +6,7 @@ from time import process_time
 
 from nmm.errors import NmmError, in_a_line
 from nmm.progress import Progress
+from nmm.stepping.drive.verdict import EXIT_CODES
 from nmm.stepping.run import Run, run
 from nmm.study.cases.families import family_of
 from nmm.study.cases.measure import method_of
@@ -75,6 +76,14 @@ def compare_cases(
     if all(one.run is None for one in found):
         raise NmmError(f"{found[0].name}: {found[0].fault}")
     return Comparison(cases[0].scene.title, grid, found)
+
+
+def exit_code(study: Comparison) -> int:
+    """Return 1 where a case could not be run, else what the first run that ended badly leaves."""
+    if any(one.run is None for one in study.runs):
+        return 1
+    codes = (EXIT_CODES.get(run.summary.status, 2) for _, run, _ in study.made)
+    return next((code for code in codes if code), 0)
 
 
 def _timed(case: StudyCase) -> tuple[Run, float]:

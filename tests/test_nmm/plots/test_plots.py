@@ -410,6 +410,19 @@ def test_numbers_beside_a_flat_picture_do_not_cover_each_other():
     assert all(low[1] < high[0] for low, high in pairwise(seen))
 
 
+def test_differences_that_are_rounding_have_no_picture():
+    """A ramp to 1 m beside the same but for 1e-16 of it: noise would fill its picture."""
+    ramp, none = np.linspace(0.0, 1.0, 100).reshape(10, 10), np.zeros((0, 2))
+    run = DrawnRun("one", "DDA", "block", ramp, ramp, none, none, [], none, none)
+    noise = 1e-16 * np.random.default_rng(0).choice([-1.0, 1.0], (10, 10))
+    panels = comparison([run, run], [(noise, noise)], np.array([[0.0, 0.0], [1.0, 1.0]]))
+    images = [one.images[0] for one in panels if one.images]
+    shade = [np.abs(image.norm(image.get_array()) - 0.5).max() for image in images]
+    # Displacement twice, its difference, stress twice, its difference: noise is white.
+    assert len(shade) == 6
+    assert max(shade[2], shade[5]) < 1e-6
+
+
 @pytest.mark.parametrize("draw", [plots.deformed, plots.stress, plots.contact_forces])
 def test_a_frame_that_is_not_there_is_refused_and_so_is_what_is_no_run(draw, memory_run):
     with pytest.raises(NmmError, match=r"frame 77: expected one of the 4 frames .* from 0 to 3"):

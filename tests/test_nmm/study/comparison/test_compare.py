@@ -8,9 +8,9 @@ import nmm
 from integration.polygons import Polygons
 from nmm.cli.app import app
 from nmm.study.cases.variants import StudyCase
-from nmm.study.comparison.drawing import curve_columns
+from nmm.study.comparison.drawing import curve_columns, heading
 from nmm.study.comparison.page import comparison_page, write_comparison
-from nmm.study.comparison.runs import compare_cases
+from nmm.study.comparison.runs import compare_cases, exit_code
 from nmm.study.samples import elements_at, fields, raster
 from nmm.verification import text
 
@@ -84,6 +84,8 @@ def test_the_page_holds_table_differences_and_faults(bar, tmp_path):
     assert "| family | DDA | manifold | DDA |" in page
     assert "NMM differs from DDA by" in page
     assert 'cover.functions: local functions: "none_such": expected one of' in page
+    assert heading(study).splitlines()[-1] == "broken: not run"
+    assert exit_code(study) == 1
     # energy of uniform tension, sigma^2 / (2 E) times the area
     energy = next(line for line in page.splitlines() if line.startswith("| elastic energy"))
     assert [float(cell) for cell in energy.split("|")[2:4]] == pytest.approx([2e-6] * 2, rel=1e-2)
@@ -140,4 +142,6 @@ def test_a_run_that_ends_before_its_first_step_is_a_column_beside_the_others(bar
     study = compare_cases(cases[::-1] if turned else cases, memory=False)
     write_comparison(study, tmp_path)
     ends = ("converged", "budget_spent") if turned else ("budget_spent", "converged")
+    assert heading(study).splitlines()[-1] == "none: budget_spent"
+    assert exit_code(study) == 3  # that of `nmm run`
     assert f"| verdict | {' | '.join(ends)} |" in (tmp_path / "compare.md").read_text()
