@@ -48,7 +48,7 @@ class HoleWithCracks:
         """Density (n,) of dislocations times the root that grows at the tip."""
         n = self.points
         x = 1 + self.length / 2 * (1 + np.cos(np.pi * np.arange(1, n) / n))
-        rows = self._stress_of_each(x + 0j)[:, :, 1]
+        rows = self._stress_of_each(x.astype(np.complex128))[:, :, 1]
         # No root grows at the mouth: the interpolant is zero there.
         mouth = (-1.0) ** np.arange(n) * np.tan((2 * np.arange(n) + 1) * np.pi / (4 * n)) / n
         applied = 1 + 0.5 / x**2 + 1.5 / x**4
