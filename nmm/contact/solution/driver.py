@@ -35,6 +35,9 @@ from nmm.frozen import with_parts
 from nmm.solvers.linear import LinearSolver
 from nmm.solvers.unchecked import product
 
+# Share of the largest shear of a motion that is rounding.
+NEXT_TO_NOTHING = 1e-6
+
 
 class ContactSolver:
     """Solves the contacts of the steps of a run.
@@ -151,14 +154,18 @@ class ContactSolver:
                 return _Agreed(iteration, posed, answer, sliding, passes)
             start = answer.increment
 
-    def acting(self) -> csc_array | None:
-        """Return the matrix of the last system with the springs that acted in it."""
+    def acting(self, back: Floats | None = None) -> csc_array | None:
+        """Return the matrix of the last system with the springs that acted in it.
+
+        Contacts that slid stick where the motion ``back`` (n,) would turn them back.
+        """
         if self.last is None:
             return self.untouched.matrix
         problem, answer = self.last
         closed = answer.normal_force != 0
         bound = shear_bound(answer.normal_force, closed, problem.limits)
-        sticks = closed & (answer.state != SLIDE) & (bound > 0)
+        slid = answer.state == SLIDE
+        sticks = closed & (bound > 0) & (~slid | turned_back(problem, answer, back))
         normal = np.where(closed, problem.normal_stiffness, 0.0)
         shear = np.where(sticks, problem.shear_stiffness, 0.0)
         return self.memory.pattern_of(problem).matrix(problem, normal, shear)
@@ -235,6 +242,15 @@ class _Agreed:
         return with_parts(
             found, loss=loss, friction=friction, sliding=sliding, rows=rows, missed=missed
         )
+
+
+def turned_back(problem: StepProblem, answer: StepAnswer, motion: Floats | None) -> Bools:
+    """Return contacts (m,) that a motion (n,) shears against their shear force."""
+    if motion is None:
+        return np.zeros(problem.n_contacts, dtype=bool)
+    sheared = problem.tangent_rows[:, : len(motion)] @ motion
+    against = np.where(answer.shear_force < 0, sheared, -sheared)
+    return np.asarray(against > NEXT_TO_NOTHING * largest(np.abs(sheared)))
 
 
 def _lost(

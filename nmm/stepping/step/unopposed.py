@@ -6,8 +6,10 @@ import numpy as np
 from scipy.sparse import csc_array, diags_array
 
 from integration.arrays import Floats, Ints
+from nmm.assembly.model import Model
 from nmm.assembly.moving.momenta import resultants
 from nmm.assembly.state import State
+from nmm.solvers.factor import Factor
 from nmm.stepping.step.anchors import anchor_stiffness, anchors, block_name, manner
 from nmm.stepping.step.stepper import Stepper
 
@@ -50,31 +52,69 @@ def unheld(stepper: Stepper, state: State, names: Sequence[str], balanced: bool)
 def unopposed(stepper: Stepper, at: State | None = None) -> dict[int, Floats]:
     """Return the bodies that nothing holds, each with a rigid motion (3,) that nothing opposes.
 
-    In the equilibrium ``at``, where it is given, loads oppose turns too, see `_turned_back`.
+    In the equilibrium ``at``, where it is given, loads oppose turns too, see `_turned_back`, and so
+    does friction where contacts that slid would slide back: a block that its weight spreads on a
+    floor, both corners outwards, sticks on one of them whichever way it is pushed.
     Anchors drag a motion of all bodies along where nothing else holds them, and only there. Strain
     makes none stiffer, so that rigid motions alone are asked.
     """
     stiffness = _against_rigid_motions(stepper)
     if stiffness is None:
         return {}
-    model, radius = stepper.model, np.sqrt(stepper.model.manifold.body_area)
-    soft = (anchor_stiffness(model)[:, None] * radius[:, None] ** [0, 0, 2]).ravel()
-    held = soft.copy()
-    if at is not None:
-        held[2::3] += _turned_back(stepper, at)
-    factor = stepper.solver.factorise(csc_array(stiffness + diags_array(held)))
+    held = np.zeros(stiffness.shape[0]) if at is None else _turned_back(stepper, at)
+    soft, ways = _soft(stepper.model), _ways(stepper.model)
+    factor = stepper.solver.factorise(csc_array(stiffness + diags_array(soft + held)))
     found: dict[int, Floats] = {}
-    for kind, size in enumerate((np.ones_like(radius), np.ones_like(radius), radius)):
-        motion = np.zeros((model.manifold.n_bodies, 3))
-        motion[:, kind] = 1 / size
-        dragged = factor.refined(soft * motion.ravel()).reshape(-1, 3)
-        for body in np.flatnonzero(np.abs(dragged[:, kind]) * size > FREE).tolist():
-            found.setdefault(body, dragged[body])
+    for kind, way in enumerate(ways):
+        free = _dragged(factor, soft, way, kind)
+        if at is not None and free:
+            free = _either_way(stepper, held, free, kind)
+        found = free | found
+    return found
+
+
+def _soft(model: Model) -> Floats:
+    """Return stiffnesses (3 B,) of anchors against the rigid motions of bodies."""
+    arm = np.sqrt(model.manifold.body_area)[:, None] ** [0, 0, 2]
+    return np.asarray(anchor_stiffness(model)[:, None] * arm).ravel()
+
+
+def _ways(model: Model) -> Floats:
+    """Return motions (3, B, 3) of all bodies alike: along x, along y, and turns."""
+    radius = np.sqrt(model.manifold.body_area)
+    ways = np.zeros((3, len(radius), 3))
+    ways[0, :, 0], ways[1, :, 1], ways[2, :, 2] = 1.0, 1.0, 1 / radius
+    return ways
+
+
+def _dragged(factor: Factor, soft: Floats, way: Floats, kind: int) -> dict[int, Floats]:
+    """Return the bodies that anchors drag along in a motion (B, 3) of one kind, each with its own.
+
+    ``factor`` is of the stiffness (3 B, 3 B) with the anchors, ``soft`` (3 B,) theirs.
+    """
+    dragged = factor.refined(soft * way.ravel()).reshape(-1, 3)
+    far = np.abs(dragged[:, kind]) > FREE * way[:, kind]
+    return {body: dragged[body] for body in np.flatnonzero(far).tolist()}
+
+
+def _either_way(
+    stepper: Stepper, held: Floats, free: dict[int, Floats], kind: int
+) -> dict[int, Floats]:
+    """Return those of the ``free`` bodies that friction lets go one way or the other."""
+    soft, way = _soft(stepper.model), _ways(stepper.model)[kind]
+    motion = np.zeros_like(way)
+    motion[list(free)] = list(free.values())
+    found: dict[int, Floats] = {}
+    for back in (motion, -motion):
+        stiffness = _against_rigid_motions(stepper, back.ravel())
+        if stiffness is not None:
+            factor = stepper.solver.factorise(csc_array(stiffness + diags_array(soft + held)))
+            found |= _dragged(factor, soft, way, kind)
     return found
 
 
 def _turned_back(stepper: Stepper, at: State) -> Floats:
-    """Return by what moment a turn (B,) of each body is opposed as arms of loads turn (N m).
+    """Return by what rigid motions (3 B,) are opposed as arms of loads turn: turns alone (N m).
 
     In equilibrium ``sum F . x`` of forces that keep their direction is ``int tr(sigma) dV``, about
     any point. None of bodies that others touch, whose forces turn with faces, nor where pressures
@@ -86,7 +126,9 @@ def _turned_back(stepper: Stepper, at: State) -> Floats:
     moment = model.thickness * manifold.elements.areas * (stress[:, 0] + stress[:, 1])
     back = np.maximum(np.bincount(manifold.element_body, moment, manifold.n_bodies), 0.0)
     back[_pressed(stepper)] = 0.0
-    return back if all(effect.symmetric for effect in plan.effects.values()) else 0.0 * back
+    if not all(effect.symmetric for effect in plan.effects.values()):
+        back[:] = 0.0
+    return np.stack([0.0 * back, 0.0 * back, back], axis=1).ravel()
 
 
 def _pressed(stepper: Stepper) -> Ints:
@@ -105,14 +147,17 @@ def left_alone(stepper: Stepper) -> bool:
     return bool(alone) and not np.isin(alone, _pressed(stepper)).any()
 
 
-def _against_rigid_motions(stepper: Stepper) -> csc_array | None:
-    """Return the stiffness (3 B, 3 B) of the last system but for anchors; None where not known."""
+def _against_rigid_motions(stepper: Stepper, back: Floats | None = None) -> csc_array | None:
+    """Return the stiffness (3 B, 3 B) of the last system but for anchors; None where not known.
+
+    Contacts that slid stick where the rigid motions ``back`` (3 B,) would turn them back.
+    """
     model, contact = stepper.model, stepper.plan.contact
+    n, modes = model.manifold.n_unknowns, model.manifold.rigid_modes
     if contact is not None:
-        matrix = contact.solver.acting()
+        matrix = contact.solver.acting(None if back is None else modes @ back)
     else:
         matrix = None if stepper.factor is None else stepper.factor.matrix
-    n, modes = model.manifold.n_unknowns, model.manifold.rigid_modes
     # Conditions that multipliers hold beside contact leave fewer unknowns, which are not judged.
     if matrix is None or matrix.shape[0] < n:
         return None
