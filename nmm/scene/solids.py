@@ -25,7 +25,11 @@ from nmm.scene.matter.interfaces import Conductance, Leakage
 
 
 class Block(Frozen):
-    """One block given by its corners."""
+    """One block given by its corners.
+
+    Blocks may overlap by a millionth of the area of the smaller one, as rounded corners do, without
+    a force or energy from it; more is refused.
+    """
 
     name: Name | None = Field(default=None, description=NAME, examples=["base"])
     material: str = Field(description="the name of a material", examples=["rock"])
