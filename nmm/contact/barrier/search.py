@@ -7,8 +7,8 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.contact.barrier.newton import Newton, Start
 from nmm.contact.barrier.potential import Potential
-from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
-from nmm.contact.iteration.interior_point import InteriorPoint
+from nmm.contact.iteration.interior.complementarity import Complementarity, InteriorIterate
+from nmm.contact.iteration.interior.interior_point import InteriorPoint
 from nmm.contact.iteration.multiplier_rounds import compliances
 from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult

@@ -5,7 +5,7 @@ from typing import ClassVar
 
 from nmm.contact.enforcement.iterative import ExactEnforcement
 from nmm.contact.iteration.exact import exact_round
-from nmm.contact.iteration.interior_point import Goal
+from nmm.contact.iteration.interior.interior_point import Goal
 from nmm.contact.iteration.multiplier_rounds import MultiplierIterate
 from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.step_problem import StepProblem

@@ -10,7 +10,7 @@ from nmm.errors import SolveError
 from nmm.registry import above_zero
 
 if TYPE_CHECKING:
-    from nmm.contact.iteration.interior_point import Goal
+    from nmm.contact.iteration.interior.interior_point import Goal
     from nmm.contact.iteration.memory import Memory
     from nmm.contact.iteration.multiplier_rounds import MultiplierIterate
     from nmm.contact.iteration.tools import Tools

@@ -10,7 +10,7 @@ from integration.arrays import Floats
 from nmm.contact.enforcement.iterative import ExactEnforcement
 from nmm.contact.enforcement.open_close import ActiveSet, changes, first_active_set
 from nmm.contact.iteration.exact import exact_round
-from nmm.contact.iteration.interior_point import Goal
+from nmm.contact.iteration.interior.interior_point import Goal
 from nmm.contact.iteration.multiplier_rounds import (
     MultiplierIterate,
     compliances,

@@ -15,9 +15,9 @@ from nmm.contact.islands.warm_start import start_from
 from nmm.contact.iteration.alternation import Alternation
 from nmm.contact.iteration.apart import apart_in, solve_apart
 from nmm.contact.iteration.cells import FEW, from_cell_to_cell
-from nmm.contact.iteration.central_start import central_start
-from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
-from nmm.contact.iteration.interior_point import Goal, InteriorPoint
+from nmm.contact.iteration.interior.central_start import central_start
+from nmm.contact.iteration.interior.complementarity import Complementarity, InteriorIterate
+from nmm.contact.iteration.interior.interior_point import Goal, InteriorPoint
 from nmm.contact.iteration.newton.semismooth_newton import chords, polish
 from nmm.contact.iteration.options.budgets import SMALL, IterationBudget
 from nmm.contact.iteration.tools import Tools

@@ -10,9 +10,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from nmm.contact.iteration.complementarity import Complementarity
 from nmm.contact.iteration.cut_spring_solver import inside_start
-from nmm.contact.iteration.interior_point import Goal, InteriorPoint
+from nmm.contact.iteration.interior.complementarity import Complementarity
+from nmm.contact.iteration.interior.interior_point import Goal, InteriorPoint
 from nmm.contact.iteration.multiplier_rounds import (
     MultiplierIterate,
     compliances,

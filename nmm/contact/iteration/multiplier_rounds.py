@@ -8,7 +8,7 @@ from scipy.sparse import csr_array
 from integration.arrays import Floats
 from nmm.contact.iteration.answers import judge
 from nmm.contact.iteration.cut_spring_solver import solve_springs
-from nmm.contact.iteration.interior_point import Goal
+from nmm.contact.iteration.interior.interior_point import Goal
 from nmm.contact.iteration.options.budgets import SMALL, IterationBudget
 from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from nmm.contact.iteration.complementarity import Complementarity
+from nmm.contact.iteration.interior.complementarity import Complementarity
 from nmm.contact.problem import coulomb
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.contact.problem.residual_kernel import projected

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from nmm.contact.iteration.central_start import central_start
-from nmm.contact.iteration.complementarity import Complementarity
+from nmm.contact.iteration.interior.central_start import central_start
+from nmm.contact.iteration.interior.complementarity import Complementarity
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.testing.contact_oracle import random_problem
 

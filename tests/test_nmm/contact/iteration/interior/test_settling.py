@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from nmm.contact.iteration.interior_point import Settling
+from nmm.contact.iteration.interior.settling import Settling
 
 CONTACTS = 1000
 

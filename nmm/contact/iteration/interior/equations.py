@@ -1,8 +1,8 @@
 """Newton's equations of the interior point, reduced to the unknowns of the step."""
 
 from integration.arrays import Floats
-from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
-from nmm.contact.iteration.interior_kernels import load_for, reduced, step_of
+from nmm.contact.iteration.interior.complementarity import Complementarity, InteriorIterate
+from nmm.contact.iteration.interior.elimination import load_for, reduced, step_of
 from nmm.contact.problem.matrix_pattern import LaidProblem
 from nmm.solvers.linear import LinearSolver
 

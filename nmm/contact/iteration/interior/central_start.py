@@ -9,7 +9,7 @@ good. Slack and flow of another product, as those of a last step, lose most path
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
+from nmm.contact.iteration.interior.complementarity import Complementarity, InteriorIterate
 
 BESIDE = 1e-9
 """Least slack beside a bound that is hardly any, in forces that a spring of ``product`` has."""

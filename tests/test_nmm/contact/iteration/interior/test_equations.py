@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
-from nmm.contact.iteration.interior_equations import Linearised
+from nmm.contact.iteration.interior.complementarity import Complementarity, InteriorIterate
+from nmm.contact.iteration.interior.equations import Linearised
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.solvers.linear import make_solver

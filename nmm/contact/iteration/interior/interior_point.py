@@ -1,7 +1,7 @@
 """Interior point on Coulomb's law: fifteen to thirty factorisations, whatever the contacts do.
 
-Slack and flow of every side of every contact (`nmm.contact.iteration.complementarity`) are kept
-positive with the same product,
+Slack and flow of every side of every contact (`complementarity` in this room) are kept positive
+with the same product,
 
     p w = a u = b v = kappa,   gap = N / k + w,   slip = T / k + u - v,
 
@@ -15,9 +15,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
-from nmm.contact.iteration.interior_equations import Linearised
-from nmm.contact.iteration.interior_kernels import recentred
+from nmm.contact.iteration.interior.centrality import recentred
+from nmm.contact.iteration.interior.complementarity import Complementarity, InteriorIterate
+from nmm.contact.iteration.interior.equations import Linearised
+from nmm.contact.iteration.interior.settling import Settling
 from nmm.contact.iteration.newton.semismooth_newton import polish
 from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.cut_springs import IterationResult
@@ -34,34 +35,6 @@ class Goal:
     def distance(self, found: IterationResult) -> float:
         """How many times the tolerances are exceeded; up to 1 they are met."""
         return max(found.size / self.balance, found.error / self.error)
-
-
-class Settling:
-    """Tells when hardly a contact changes its state any more from point to point of a path.
-
-    Newton's method on springs from there mostly ends it. Where it does not, the next try waits
-    until a quarter as many contacts change, and others than then: from the states that it was tried
-    from it only does the same again.
-
-    Parameters
-    ----------
-    share
-        Part (-) of the contacts that may change.
-    """
-
-    def __init__(self, share: float) -> None:
-        self._share = share
-        self._last = self._tried = np.zeros(0, dtype=bool)
-
-    def seen(self, sides: Complementarity, point: InteriorIterate) -> bool:
-        """Whether so few have changed since the point before."""
-        now = np.concatenate(sides.springs.states(point.increment))
-        changed = int((now != self._last).sum()) if len(self._last) else len(now)
-        self._last = now
-        if changed > self._share * len(now) or np.array_equal(now, self._tried):
-            return False
-        self._share, self._tried = 0.25 * changed / len(now), now
-        return True
 
 
 class InteriorPoint:

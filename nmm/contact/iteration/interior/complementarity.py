@@ -11,12 +11,8 @@ from functools import cached_property
 import numpy as np
 
 from integration.arrays import Bools, Floats
-from nmm.contact.iteration.interior_kernels import (
-    PointColumns,
-    SideColumns,
-    longest,
-    mean_product,
-)
+from nmm.contact.iteration.interior.centrality import PointColumns, longest, mean_product
+from nmm.contact.iteration.interior.elimination import SideColumns
 from nmm.contact.problem.coulomb import frictionless, shear_bound
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 
