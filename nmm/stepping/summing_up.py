@@ -47,7 +47,7 @@ def summed_up(
     lengths = totals.lengths
     start = totals.since or start
     with stepper.clock.phase("audits"):
-        condition = stepper.condition(state)
+        condition = stepper.condition()
         findings = audit(EndedRun(*asked, stepper, recorder, start, state, verdict, condition))
     verdict, growth = judged(verdict, findings), stepper.plan.fracture
     load = None if verdict.load_factor is None else stepper.plan.scaled_load(verdict.load_factor)

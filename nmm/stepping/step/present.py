@@ -9,6 +9,8 @@ from nmm.assembly.state import State
 from nmm.model.discretisation import CurrentDiscretisation, Discretisation
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.stepping.step.clock import Clock
+from nmm.stepping.step.linear.linear_system import LinearSystem
+from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.step_solver import StepSolver
 
 if TYPE_CHECKING:
@@ -43,9 +45,11 @@ class PresentModel:
         self.seconds = self.clock.seconds
         self.reference = discretisation.model.manifold.elements.points
         self.size = discretisation.model.manifold.elements.extent
-        self._current = CurrentDiscretisation(discretisation)
-        given = solver, kinematics, self.size, carries, self.clock
-        self._steps = StepSolver(self._current, *given)
+        current = self._current = CurrentDiscretisation(discretisation)
+        self._mover = Mover(current, solver, kinematics, self.clock)
+        self._system = LinearSystem(current, solver, kinematics.small)
+        given = self._mover, self._system, self.size, carries, self.clock
+        self._steps = StepSolver(current, *given)
 
     @property
     def small(self) -> bool:
@@ -70,12 +74,12 @@ class PresentModel:
     @property
     def vertices(self) -> MaterialPoints:
         """The elements' vertices, which are followed."""
-        return self._steps.mover.vertices
+        return self._mover.vertices
 
     @property
     def factor(self) -> Factor | None:
         """The last factor of a system without contacts."""
-        return self._steps.factor
+        return self._system.factor
 
     def candidates(self, state: State, reach: float, step: float | None) -> "ContactPoints":
         """Return the contact points of a step in which no point moves further than ``reach``."""
@@ -88,14 +92,14 @@ class PresentModel:
 
     def place(self, state: State) -> Floats:
         """Return where the elements' vertices are (P, 2)."""
-        return self._steps.mover.place(state)
+        return self._mover.place(state)
 
     def velocity(self, state: State) -> Floats:
         """Return how fast the elements' vertices are (P, 2)."""
         inertia = self.plan.inertia
         return self.vertices.velocity(state, None if inertia is None else inertia.turning(state))
 
-    def condition(self, state: State) -> float | None:
+    def condition(self) -> float | None:
         """Estimate the condition number of the last system, springs of contact included."""
         if self.factor is not None:
             return self.factor.condition()
@@ -104,4 +108,4 @@ class PresentModel:
 
     def rounding_changes(self) -> list[Floats]:
         """Changes (n,) that rounding may have made of the last static step without contact."""
-        return self._steps.rounding_changes()
+        return self._system.rounding_changes()

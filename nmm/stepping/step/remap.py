@@ -28,25 +28,22 @@ def laid_here(
     old: Discretisation, lay: Lay, state: State, increment: Floats, place: Floats
 ) -> tuple[Change, Discretisation]:
     """Lay the blocks anew where an accepted step has left them; see `remapped`."""
-    change = remapped(old, lay, state, increment, place)
+    change = remapped(old, lay, state, place)
     return change, with_stress_so_far(old.after(change), old, increment)
 
 
 def laid_as(old: Discretisation, lay: Lay, laid: LaidAnew) -> tuple[Change, Discretisation]:
     """Lay the blocks as they were laid after another step."""
     manifold = old.model.manifold
-    still = np.zeros(manifold.n_unknowns)
-    change = remapped(old, lay, initial_state(manifold), still, laid.points)
+    change = remapped(old, lay, initial_state(manifold), laid.points)
     return change, with_stress(old.after(change), laid.stress)
 
 
-def remapped(
-    discretisation: Discretisation, lay: Lay, state: State, increment: Floats, place: Floats
-) -> Change:
+def remapped(discretisation: Discretisation, lay: Lay, state: State, place: Floats) -> Change:
     """Lay the blocks anew at ``place`` (P, 2), where the accepted ``state`` has left them.
 
-    Velocities are kept unknown by unknown, and there is no deformation: `stress_so_far` has what
-    the ``increment`` (n,) of the step has left in the material.
+    Velocities are kept unknown by unknown, and there is no deformation: what the step has left in
+    the material is kept by `with_stress_so_far`.
     """
     model = discretisation.model
     manifold = lay(model.manifold.elements.with_points(place))

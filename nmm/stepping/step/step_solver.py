@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.moving.kinematics import Kinematics
 from nmm.assembly.moving.motion import carried_on
 from nmm.assembly.state import State
 from nmm.effects.base import Instant, Span
@@ -16,7 +15,7 @@ from nmm.errors import SolveError
 from nmm.frozen import with_parts
 from nmm.integrators.base import Integrator
 from nmm.model.discretisation import CurrentDiscretisation
-from nmm.solvers.linear import Factor, LinearSolver
+from nmm.solvers.linear import LinearSolver
 from nmm.solvers.unchecked import product
 from nmm.stepping.step.booking import booked
 from nmm.stepping.step.carried import CarriedState
@@ -24,6 +23,7 @@ from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.linear.assembly import Assembly
 from nmm.stepping.step.linear.equations import Carriage, Equations, Linearisation, spinning
 from nmm.stepping.step.linear.free_step import FreeStepSolver
+from nmm.stepping.step.linear.linear_system import LinearSystem
 from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.nonlinear.inner import InternalForces
 from nmm.stepping.step.nonlinear.iterate import Solution, Solve
@@ -44,47 +44,40 @@ class StepSolver:
 
     Parameters
     ----------
-    solver, kinematics
-        The linear solver, and how bodies move.
+    mover, system
+        Moves the bodies, and solves the equations of steps without contact.
     size
         Diagonal of the domain (m).
     carries
         Whether accelerations count (`Integrator.carries`).
-
-    Attributes
-    ----------
-    mover
-        Moves the bodies.
     """
 
     def __init__(
         self,
         current: CurrentDiscretisation,
-        solver: LinearSolver,
-        kinematics: Kinematics,
+        mover: Mover,
+        system: LinearSystem,
         size: float,
         carries: bool,
         clock: Clock,
     ) -> None:
-        self._current, self._kinematics, self._clock = current, kinematics, clock
-        self._assembly = Assembly(current)
-        self.mover = Mover(current, solver, kinematics, clock)
-        self._alone = FreeStepSolver(current, self.mover, solver, kinematics.small, clock)
+        self._current, self._kinematics, self._clock = current, mover.kinematics, clock
+        self._assembly, self._mover, self._system = Assembly(current), mover, system
+        self._alone = FreeStepSolver(current, mover, system, clock)
         touches = current.plan.contact is not None
-        self._touching = self._contact_step(solver, size, carries) if touches else None
+        self._touching = self._contact_step(size, carries) if touches else None
 
-    def _contact_step(
-        self, solver: LinearSolver, size: float, carries: bool
-    ) -> "ContactStepSolver":
+    def _contact_step(self, size: float, carries: bool) -> "ContactStepSolver":
         """Return what solves steps with contact; not imported where nothing may touch."""
         from nmm.stepping.step.contact.contact_step import ContactStepSolver
 
-        return ContactStepSolver(self._current, self.mover, solver, size, carries, self._clock)
+        given = self._current, self._mover, self._system.solver
+        return ContactStepSolver(*given, size, carries, self._clock)
 
     @property
-    def _solvers(self) -> "tuple[Mover | FreeStepSolver | ContactStepSolver, ...]":
+    def _solvers(self) -> "tuple[Mover | LinearSystem | ContactStepSolver, ...]":
         """What solves a step and keeps factors for it."""
-        always = self.mover, self._alone
+        always = self._mover, self._system
         return always if self._touching is None else (*always, self._touching)
 
     def solve_by(self, solver: LinearSolver) -> None:
@@ -94,7 +87,7 @@ class StepSolver:
 
     def follow(self, change: "Change") -> None:
         """Continue on the discretisation after a change."""
-        self.mover.follow(change)
+        self._mover.follow(change)
         if self._touching is not None:
             self._touching.forget()
 
@@ -102,11 +95,6 @@ class StepSolver:
         """Drop factors, patterns and lists."""
         for part in (self._assembly, *self._solvers):
             part.forget()
-
-    @property
-    def factor(self) -> Factor | None:
-        """The last factor of a system without contacts."""
-        return self._alone.factor
 
     def reach(self, motion: float = 0.0) -> float:
         """Return how far contacts are sought after a step that moved by ``motion`` (m)."""
@@ -195,7 +183,7 @@ class StepSolver:
         symmetric = current.plan.contact is not None
         inner = InternalForces(current, state, end, step, rule, moves, symmetric, clock)
         equations, found = newton(inner, state, solve, clock)
-        factor, matter = self._alone.factor, current.model.matter
+        factor, matter = self._system.factor, current.model.matter
         if not moves.finite or factor is None or matter is None:
             return equations, found
         from nmm.stepping.step.stability import unless_unstable
@@ -209,7 +197,7 @@ class StepSolver:
         with self._clock.phase("path"):
             equations = self._standing(state, rule)
             try:
-                return self._touching.along(equations, path, reach)
+                return self._touching.paths.attempt(equations, path, reach)
             except SolveError as fault:
                 return Attempt.failed(equations.state, fault)
 
@@ -217,7 +205,7 @@ class StepSolver:
         """Return the energy (n,) by unknown (J) that bonds lose on a path from a state."""
         assert self._touching is not None
         with self._clock.phase("path"):
-            return self._touching.losing(self._standing(state, rule), reach)
+            return self._touching.paths.losing(self._standing(state, rule), reach)
 
     def _standing(self, state: State, rule: Integrator) -> Equations:
         """Return the equations of a step of statics under the load of the state itself."""
@@ -238,7 +226,3 @@ class StepSolver:
                 return self._touching.attempt(equations, *bonds, reach, before)
         except SolveError as fault:
             return equations, Attempt.failed(equations.state, fault)
-
-    def rounding_changes(self) -> list[Floats]:
-        """Changes (n,) that rounding may have made of the last static step without contact."""
-        return self._alone.rounding_changes()

@@ -35,17 +35,11 @@ PATH_SOLUTIONS = 4
 class PathSteps:
     """Solves them: any number from one state, each along a path of its own."""
 
-    def __init__(self, search: ContactSearch, mover: Mover) -> None:
-        self._search, self._mover = search, mover
-        self.forget()
-
-    def forget(self) -> None:
-        """Drop what was posed of the last state."""
+    def __init__(self, search: ContactSearch, mover: Mover, solver: LinearSolver) -> None:
+        self._search, self._mover, self._solver = search, mover, solver
         self._last: _Posed | None = None
 
-    def attempt(
-        self, solver: LinearSolver, equations: Equations, path: "PathEquation", reach: float
-    ) -> Attempt:
+    def attempt(self, equations: Equations, path: "PathEquation", reach: float) -> Attempt:
         """Solve a step.
 
         Contacts are sought up to ``reach`` (m) at first. The equations are of the load factor that
@@ -58,8 +52,8 @@ class PathSteps:
         """
         still = equations.end
         for _ in range(PATH_SOLUTIONS):
-            posed = self._posed(solver, equations, reach)
-            solved, change = posed.contact.solved(path, solver)
+            posed = self._posed(equations, reach)
+            solved, change = posed.contact.solved(path, self._solver)
             end = Instant(still.time, still.load_factor + change)
             result = self._mover.after(replace(equations, end=end), solved.answer.increment)
             if result.motion <= posed.reach or not solved.answer.verdict.converged:
@@ -71,17 +65,18 @@ class PathSteps:
             result = replace(result, state=replace(result.state, memory=memory))
         return result.told(verdict.converged, verdict.sentence, solved, solved.passes)
 
-    def losing(self, solver: LinearSolver, equations: Equations, reach: float) -> Floats:
+    def losing(self, equations: Equations, reach: float) -> Floats:
         """Return the energy (n,) by unknown (J) that bonds lose from where the equations begin."""
-        return self._posed(solver, equations, reach).contact.losing
+        return self._posed(equations, reach).contact.losing
 
-    def _posed(self, solver: LinearSolver, equations: Equations, reach: float) -> "_Posed":
+    def _posed(self, equations: Equations, reach: float) -> "_Posed":
         """Return the contact of steps from a state, that of the last one where it is the same."""
         state, contact, last = equations.state, self._search.contact, self._last
         if last is not None and last.serves(state, contact.record, reach):
             return last
         contacts = self._search.candidates(state, reach, None)
-        request = StepRequest(equations.matrix, equations.force, solver, time=equations.end.time)
+        given = equations.matrix, equations.force, self._solver
+        request = StepRequest(*given, time=equations.end.time)
         joints = contact.record.book.points
         effects = self._effects(equations)
         bent = None if effects is None else partial(_beyond, effects)
@@ -117,5 +112,5 @@ class _Posed:
     effects: "EffectForces | None"
 
     def serves(self, state: State, record: "ContactRecord", reach: float) -> bool:
-        """Whether it is that of another step."""
+        """Whether a step from a state, of a record, may be posed by it too."""
         return self.state is state and self.record is record and reach <= self.reach

@@ -21,7 +21,6 @@ from nmm.stepping.step.trial import Attempt
 if TYPE_CHECKING:
     from nmm.contact.enforcement.null_space import NullSpace
     from nmm.contact.solution.record import Breaking, BrokenBonds, ContactSolution
-    from nmm.controls.path_equation import PathEquation
     from nmm.stepping.step.contact.contact_path import PathSteps
 
 
@@ -115,20 +114,12 @@ class ContactStepSolver:
         inertia = self._current.plan.inertia
         return equations if inertia is None else spinning(equations, inertia, end)
 
-    def along(self, equations: Equations, path: "PathEquation", reach: float) -> Attempt:
-        """Solve a step of statics whose load factor is found with the unknowns (`PathSteps`)."""
-        return self._on_paths.attempt(self.solver, equations, path, reach)
-
-    def losing(self, equations: Equations, reach: float) -> Floats:
-        """Return the energy (n,) by unknown (J) that bonds lose on a path from here."""
-        return self._on_paths.losing(self.solver, equations, reach)
-
     @property
-    def _on_paths(self) -> "PathSteps":
-        """What solves steps along paths; made for the first one."""
+    def paths(self) -> "PathSteps":
+        """What solves steps of statics along paths; made for the first one."""
         from nmm.stepping.step.contact.contact_path import PathSteps
 
-        self._paths = self._paths or PathSteps(self.search, self._mover)
+        self._paths = self._paths or PathSteps(self.search, self._mover, self.solver)
         return self._paths
 
     def _why(self, solution: str, result: Attempt, solved: "ContactSolution") -> str:

@@ -2,10 +2,8 @@
 
 from dataclasses import replace
 
-from integration.arrays import Floats
 from nmm.errors import SolveError
 from nmm.model.discretisation import CurrentDiscretisation
-from nmm.solvers.linear import Factor, LinearSolver
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.linear.equations import Equations
 from nmm.stepping.step.linear.linear_system import LinearSystem
@@ -18,40 +16,12 @@ known of soft motions. The summary has the residual, and warns of it from 1e-6 o
 
 
 class FreeStepSolver:
-    """Solves steps without contact; see `LinearSystem` for what ``small`` says."""
+    """Solves steps without contact."""
 
     def __init__(
-        self,
-        current: CurrentDiscretisation,
-        mover: Mover,
-        solver: LinearSolver,
-        small: bool,
-        clock: Clock,
+        self, current: CurrentDiscretisation, mover: Mover, system: LinearSystem, clock: Clock
     ) -> None:
-        self._current, self._mover, self._clock = current, mover, clock
-        self._system = LinearSystem(current, solver, small)
-
-    @property
-    def factor(self) -> Factor | None:
-        """The factor of the last system."""
-        return self._system.factor
-
-    @property
-    def solver(self) -> LinearSolver:
-        """Factorises the matrices."""
-        return self._system.solver
-
-    @solver.setter
-    def solver(self, solver: LinearSolver) -> None:
-        self._system.solver = solver
-
-    def forget(self) -> None:
-        """Drop the factor."""
-        self._system.forget()
-
-    def rounding_changes(self) -> list[Floats]:
-        """Changes (n,) that rounding may have made of the last step, as its system says."""
-        return self._system.rounding_changes()
+        self._current, self._mover, self._system, self._clock = current, mover, system, clock
 
     def attempt(self, equations: Equations) -> Attempt:
         """Solve a step.
