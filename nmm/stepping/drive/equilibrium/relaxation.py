@@ -20,8 +20,9 @@ from nmm.effects.base import Instant
 from nmm.integrators.shi import Shi
 from nmm.stepping.bounds.static_theorem import carried
 from nmm.stepping.drive.equilibrium.pace import Pace
+from nmm.stepping.drive.equilibrium.restless import touched, who
 from nmm.stepping.drive.equilibrium.settling import COLLAPSE, anchored, beyond_anchors
-from nmm.stepping.step.anchors import block_name, largest_mover
+from nmm.stepping.step.anchors import largest_mover
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
 
@@ -166,7 +167,7 @@ class _Search:
         if self.first is None and self.proof is not None and self.proof.fails:
             model = self.stepper.model
             body = largest_mover(model, self.state, found.increment)[0]
-            self.stands = not _touched(model, found, body)
+            self.stands = not touched(model, found, body)
         if self.first is None or self.way - found.motion < FREE_WAY * self.size:
             self.first = found
         if self.start is None:
@@ -203,7 +204,7 @@ class _Search:
 
     def _who(self) -> str:
         carries = self.proof is not None and self.proof.fails and (self.proof.factor or 0.0) > 0
-        return _who(self.moving, self.first, self.names, "lower the load, or " if carries else "")
+        return who(self.moving, self.first, self.names, "lower the load, or " if carries else "")
 
 
 def _holds(stepper: Stepper, state: State, end: Instant) -> bool:
@@ -236,33 +237,3 @@ def _first_length(model: Model, force: Floats, size: float) -> float:
     pull = resultants(model, force)
     fastest = float(np.hypot(*(pull[:, :2] / mass[:, :2]).T).max(initial=0.0))
     return float(np.sqrt(2 * FIRST * size / fastest)) if fastest > 0 else 1.0
-
-
-def _who(moving: Stepper, attempt: Attempt | None, names: Sequence[str], first: str = "") -> str:
-    """Name the block that moves most, and how; one that nothing touches moves freely.
-
-    ``first`` is what to do before supports are added to one that is touched.
-    """
-    if attempt is None:
-        return "no step converged"
-    if not attempt.increment.any():
-        return "nothing moves, yet the contact forces of what stands still were not found"
-    model = moving.model
-    body, how = largest_mover(model, attempt.state, attempt.increment)
-    name = block_name(model, body, names)
-    if _touched(model, attempt, body):
-        return (
-            f"block {name} moves most: {how}; the blocks that touch it do not hold it: {first}"
-            "add supports, friction or strength, or [inertia] to follow its motion"
-        )
-    return f"block {name} can move freely: {how}; add a support or friction, or [inertia]"
-
-
-def _touched(model: Model, attempt: Attempt, body: int) -> bool:
-    """Whether anything pressed on a body in a step."""
-    if attempt.solved is None:
-        return False
-    contacts, answer = attempt.solved.contacts, attempt.solved.answer
-    owner = model.manifold.boundary.body
-    beside = (owner[contacts.edge_a] == body) | (owner[contacts.edge_b] == body)
-    return bool((beside & (answer.normal_force < 0)).any())
