@@ -21,6 +21,7 @@ from nmm.stepping.control.locating import ABOVE, TriedStep, located
 from nmm.stepping.control.other_answers import ahead, taking
 from nmm.stepping.control.position import OnPath, PathEnd
 from nmm.stepping.control.settling import settled
+from nmm.stepping.control.telling import Telling
 from nmm.stepping.control.trials import Trials
 from nmm.stepping.control.verdicts import arrived, no_balance
 from nmm.stepping.drive.changes import AcceptedState, asked, with_events
@@ -77,6 +78,10 @@ class _Following:
     control: Control
     end: PathEnd
     progress: Progress
+
+    @property
+    def _telling(self) -> Telling:
+        return Telling(self.stepper, self.recorder, self.control, self.progress)
 
     @property
     def trials(self) -> Trials:
@@ -185,7 +190,7 @@ class _Following:
         attempt, state, contacts = self._settled(at, event.attempt)
         if not attempt.converged:
             return self._shorter(at, step, attempt)
-        after = self._told(at, attempt, state, contacts, event.way)
+        after = self._telling.told(at, attempt, state, contacts, event.way)
         brittle, shed = self.trials.give_way(attempt)
         softened = at.softened or not brittle
         after = replace(after, softened=softened, events=at.events + 1, shed=shed)
@@ -219,7 +224,7 @@ class _Following:
         attempt, state, contacts = self._settled(at, attempt)
         if not attempt.converged:
             return attempt
-        return self._told(at, attempt, state, contacts, way, jump)
+        return self._telling.told(at, attempt, state, contacts, way, jump)
 
     def _settled(
         self, at: OnPath, attempt: Attempt
@@ -237,45 +242,3 @@ class _Following:
             ).attempt
 
         return settled(self.stepper, attempt, correction)
-
-    def _told(
-        self,
-        at: OnPath,
-        attempt: Attempt,
-        state: State,
-        contacts: "ContactPoints | None",
-        way: float,
-        jump: bool = False,
-    ) -> OnPath:
-        """Tell a step that was accepted; time counts steps."""
-        recorder, time = self.recorder, at.state.time + 1.0
-        later, state = replace(attempt.state, time=time), replace(state, time=time)
-        attempt = replace(attempt, state=later)
-        anew = jump and at.changed
-        if (jump or self.control.by_load) and attempt.solved is not None:
-            solved = replace(attempt.solved, between=0.0)
-            plan, model = self.stepper.plan, self.stepper.model
-            within = replace(attempt, solved=solved)
-            # Motion in which bonds broke.
-            lost = recorder.ledger.released(plan, model, at.state, within)
-            if anew:  # where new faces leave more stored, functions of a tip went: no loss
-                lost = max(lost, solved.loss, 0.0)
-            attempt = replace(attempt, solved=replace(solved, loss=lost))
-        elif attempt.solved is not None:
-            lost = attempt.solved.loss + at.shed
-            attempt = replace(attempt, solved=replace(attempt.solved, loss=lost))
-        said = recorder.step(at.state, attempt, contacts, anew=anew)
-        recorder.offer(state, "load", contacts)
-        factor = state.load_factor
-        self.progress(
-            min(at.gone / self.control.end, 1.0), f"load factor {factor:.5g}  {said}".rstrip()
-        )
-        return replace(
-            at,
-            state=state,
-            contacts=contacts,
-            way=at.way + attempt.increment,
-            gone=at.gone + way,
-            peak=max(at.peak, factor),
-            shed=0.0,
-        )
