@@ -138,13 +138,18 @@ class ConsistentBonds:
         return HeldEdge(self.fluxes, frames, self.area[row], jump, rows, row)
 
     def averages(
-        self, contacts: ContactPoints, state: State, stresses: Sequence[StressAt], time: float
+        self,
+        contacts: ContactPoints,
+        state: State,
+        stresses: Sequence[StressAt],
+        time: float | None,
     ) -> tuple[tuple[Floats, csr_array], tuple[Floats, csr_array]]:
         """Average pull and shear at joint points, as gaps and slips go: (k,) in N, and rows (k, n).
 
-        ``stresses`` are added by effects to those of the strain, as they are at a ``time`` (s).
+        ``stresses`` are added by effects to those of the strain, as they are at a ``time`` (s),
+        that of the state if None.
         """
-        row = self.row(contacts)
+        row, time = self.row(contacts), state.time if time is None else time
         unknowns, values = in_global_axes(self.fluxes, state.frames, row)
         values = values * self.area[row, None, None]
         added = -added_traction(self.fluxes, state.frames, stresses, time, row)

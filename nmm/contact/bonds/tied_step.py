@@ -105,11 +105,11 @@ class TiedBonds(Transform):
     ) -> "TiedBonds":
         """Take the whole bonds of the contacts of a step that starts at ``state``.
 
-        ``stresses`` are added by effects, as they are at ``time`` (s), that of the state if None.
+        ``stresses`` are added by effects, see `ConsistentBonds.averages`.
         """
         index = np.flatnonzero(contacts.tied)
         tied = contacts.take(index)
-        averages = bonds.averages(tied, state, stresses, state.time if time is None else time)
+        averages = bonds.averages(tied, state, stresses, time)
         at, jumps, gaps = bonds.row(tied), (tied.gap, tied.slip), (rows.normal, rows.tangent)
         penalty = counting(tied, bonds.area[at] * bonds.penalty[at])
         normal, tangent = (

@@ -102,18 +102,18 @@ class MixedBonds:
         laws: ContactLaws,
         contacts: ContactPoints,
         state: State,
-        stresses: Sequence[StressAt] = (),
-        time: float | None = None,
+        stresses: Sequence[StressAt],
+        time: float | None,
     ) -> "MixedBonds | None":
         """Take them from the contacts of a step that starts at ``state``; None without any.
 
-        ``stresses`` are added by effects, as they are at ``time`` (s), that of the state if None.
+        ``stresses`` are added by effects, see `ConsistentBonds.averages`.
         """
         index = np.flatnonzero(bonds.mixed_among(contacts))
         if not len(index):
             return None
         some = contacts.take(index)
-        averages = bonds.averages(some, state, stresses, state.time if time is None else time)
+        averages = bonds.averages(some, state, stresses, time)
         normal, tangent = (
             AverageStress(1 / spring[index], *average)
             for spring, average in zip(laws.springs(contacts)[:2], averages, strict=True)

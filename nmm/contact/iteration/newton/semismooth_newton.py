@@ -11,6 +11,8 @@ from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.solvers.linear import Factor, LinearSolver
 
+STEPS = 8
+"""Most steps from one point."""
 GAIN = 0.1
 """Part of the force that a step with the tangent of another point must leave at most."""
 
@@ -21,7 +23,6 @@ def polish(
     linear: LinearSolver,
     increment: Floats,
     tolerance: float,
-    budget: int = 8,
     keep: Callable[[Factor], None] = lambda factor: None,
 ) -> IterationResult:
     """Take full Newton steps while each halves the out-of-balance force, or two together do.
@@ -35,12 +36,12 @@ def polish(
     """
     problem = springs.problem
     if linear.in_full(len(increment)):
-        full = newton_in_full(springs, increment, tolerance, budget)
+        full = newton_in_full(springs, increment, tolerance, STEPS)
         if full is not None:
             return _result(springs, *full)
     residual = springs.residual(increment)
     taken, at, rest, risen = 0, increment, residual, False
-    while taken < budget and residual.size > tolerance:
+    while taken < STEPS and residual.size > tolerance:
         matrix = pattern().matrix(problem, *springs.tangent(at))
         factor = linear.factorise(matrix)
         keep(factor)

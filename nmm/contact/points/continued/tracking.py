@@ -22,7 +22,7 @@ CARRIED = ("slip", "slid", "state", "normal_force", "shear_force")
 
 
 def searched_points(
-    found: Contacts, interface: Ints, history: History, surface: Surface | None = None
+    found: Contacts, interface: Ints, history: History, surface: Surface
 ) -> ContactPoints:
     """Return found contacts as points with the initial history of contacts without bond.
 
@@ -32,7 +32,7 @@ def searched_points(
     m = len(found.gap)
     zeros = np.zeros(m)
     length, parameter_a, factor = zeros, zeros, np.ones(m)
-    if isinstance(found, FaceContacts) and surface is not None:
+    if isinstance(found, FaceContacts):
         length, parameter_a = found.length, found.parameter_a
         grain = np.minimum(surface.grain[found.vertex], surface.grain[found.edge])
         factor = np.where(length > 0, length / grain, 1.0)

@@ -3,13 +3,16 @@
 from dataclasses import replace
 
 import numpy as np
+import shapely
 
+from integration.polygons import Polygons
 from nmm.contact.detection.contacts import Contacts
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.continued.predecessors import Predecessors
 from nmm.contact.points.continued.reference_gap import counted, counted_on
 from nmm.contact.points.continued.tracking import continued, continues, remember, searched_points
 from nmm.contact.points.kept import of_pairs
+from nmm.testing.detection.search import polygon_surface
 
 
 class Counting:
@@ -36,7 +39,8 @@ def contacts(keys: list[int], gap: float = 0.0) -> Contacts:
 def points(found: Contacts) -> ContactPoints:
     m = len(found)
     history = {"bonded": np.zeros(m, dtype=bool), "plastic_slip": np.zeros(m)}
-    return searched_points(found, np.zeros(m, dtype=int), history)
+    surface = polygon_surface(Polygons.from_shapely([shapely.box(0, 0, 1, 1)]))
+    return searched_points(found, np.zeros(m, dtype=int), history, surface)
 
 
 def test_points_that_go_on_are_those_that_are_remembered_and_counted_anew() -> None:
