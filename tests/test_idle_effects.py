@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import nmm
+from nmm.assembly.applied_forces import AppliedForces
 from nmm.effects.gravity import Gravity
 from nmm.effects.members.chains import Chains
 from nmm.effects.members.linked import Linked
@@ -54,6 +55,14 @@ def test_an_idle_member_makes_its_matrix_once_a_run(name, monkeypatch):
     nmm.run(IDLE[name].scenes(2 * STEPS)[1])
     # Bricks under their weight turn by far less than a thousandth in this time.
     assert len(made) == 1
+
+
+def test_forces_on_the_outline_are_not_found_for_tips(monkeypatch):
+    asked, on = [], AppliedForces.on.__func__
+    monkeypatch.setattr(AppliedForces, "on", classmethod(lambda *a: asked.append(0) or on(*a)))
+    nmm.run(IDLE["a crack that does not grow in time"].scenes(2)[1])
+    # The bar's support and its load are on edges of its outline.
+    assert not asked
 
 
 def test_matrices_of_an_idle_member_are_summed_once_a_run(monkeypatch):

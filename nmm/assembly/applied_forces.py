@@ -1,7 +1,7 @@
 """Forces that effects apply to the material, as the integrals about crack tips need them."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
@@ -10,6 +10,7 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.places import Place
 from nmm.assembly.state import State
+from nmm.frozen import with_parts
 
 Density = Callable[[Ints, Floats], Floats]
 
@@ -58,12 +59,12 @@ class AppliedForces:
     @classmethod
     def of_acceleration(cls, acceleration: Floats) -> Self:
         """Return the inertia of an acceleration, unknowns (n,) in body axes, alone."""
-        return replace(cls.of_densities(), accelerations=(acceleration,))
+        return with_parts(cls.of_densities(), accelerations=(acceleration,))
 
     @classmethod
     def of_strain(cls, displacement: Floats) -> Self:
         """Return the elastic stress of a displacement, unknowns (n,) in body axes, alone."""
-        return replace(cls.of_densities(), strains=(displacement,))
+        return with_parts(cls.of_densities(), strains=(displacement,))
 
     @classmethod
     def on(cls, model: Model, place: Place, force: Floats) -> Self:
@@ -77,6 +78,13 @@ class AppliedForces:
     def __len__(self) -> int:
         return len(self.element)
 
+    @staticmethod
+    def counts(model: Model, place: Place) -> bool:
+        """Whether forces at a place count: within bodies, or on crack faces."""
+        if place.edge is None or place.part is None:
+            return True
+        return bool((model.cut.boundary.crack[place.edge] >= 0).any())
+
     def take(self, index: Ints | Bools) -> "AppliedForces":
         """Return the selected point forces, without body forces."""
         return AppliedForces(
@@ -86,9 +94,10 @@ class AppliedForces:
 
 def joined(parts: Iterable[AppliedForces]) -> AppliedForces:
     """Return the forces of several."""
-    some = [AppliedForces.of_densities(), *parts]
+    some = list(parts)
+    felt = [one for one in some if len(one)] or [AppliedForces.of_densities()]
     element, start, end, force = (
-        np.concatenate([getattr(one, name) for one in some])
+        np.concatenate([getattr(one, name) for one in felt])
         for name in ("element", "start", "end", "force")
     )
     densities = tuple(density for one in some for density in one.densities)

@@ -30,9 +30,9 @@ class MaterialPoints:
     arm: Floats
     rows: Rows
 
-    def place(self, frames: Frames, deformation: Floats) -> Floats:
-        """Return the current place (m, 2)."""
-        local = self.arm + self.rows.apply(deformation)
+    def place(self, frames: Frames, deformation: Floats | None) -> Floats:
+        """Return the current place (m, 2); None is that of bodies without deformation."""
+        local = self.arm if deformation is None else self.arm + self.rows.apply(deformation)
         if frames.tilt is not None:
             across = counterclockwise(self.arm)
             local = local + frames.tilt[self.body, None] * across

@@ -162,8 +162,11 @@ class Supports(TiedInterfaces):
 
     def applied_forces(self, state: State) -> AppliedForces:
         """See `Effect.applied_forces`: what supports exert within bodies and on crack faces."""
-        assert self._whole is not None
-        found, model = self._at_points(state), self._whole
+        model = self._whole
+        assert model is not None
+        if not any(AppliedForces.counts(model, tie.interface.first) for tie in self.ties):
+            return AppliedForces.of_densities()
+        found = self._at_points(state)
         return joined(AppliedForces.on(model, tie.interface.first, one) for tie, one in found)
 
     def _at_points(self, state: State) -> Iterator[tuple[Imposition, Floats]]:

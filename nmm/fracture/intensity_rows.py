@@ -130,9 +130,7 @@ class IntensityRows:
 
     def of_applied_forces(self, pushes: AppliedForces, frames: Frames) -> Floats:
         """Contribution (2,) of forces at points, on crack faces and volume, inertia and damping."""
-        body = np.full(len(pushes), self.body)
-        turned = replace(pushes, force=frames.to_body(body, pushes.force))
-        found = self.stiff / 2 * self.interaction.of_point_forces(turned) / self.model.thickness
+        found = self._of_point_forces(pushes, frames) if len(pushes) else np.zeros(2)
         for density in pushes.densities:  # one an effect or a field
             found = found + self._of_densities(partial(self._within, density, frames))
         for acceleration in pushes.accelerations:
@@ -140,6 +138,12 @@ class IntensityRows:
         for strain in pushes.strains:
             found = found + self.intensities(strain, self.model.pressure(strain)) - self.fixed
         return found
+
+    def _of_point_forces(self, pushes: AppliedForces, frames: Frames) -> Floats:
+        body = np.full(len(pushes), self.body)
+        turned = replace(pushes, force=frames.to_body(body, pushes.force))
+        found = self.interaction.of_point_forces(turned)
+        return np.asarray(self.stiff / 2 * found / self.model.thickness)
 
     def _within(self, density: Density, frames: Frames, part: ForceWeights) -> Floats:
         """Body force (m, 2) at the points of a part of the domain, in the axes of the body."""

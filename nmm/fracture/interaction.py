@@ -104,15 +104,14 @@ class Interaction:
         owner, points, weights = owner[inside], points[inside], weights[inside]
         q, dq = q[inside], dq[inside]
         ahead, both = self.fields.tip.direction, self._auxiliary(owner, points)
-        on_force = np.stack([-q[:, None] * (v @ ahead) for v in both], axis=1)
-        on_slope = np.stack([-q[:, None, None] * v for v in both], axis=1)
-        scale = weights[:, None, None]
-        force_weights = ForceWeights(owner, points, scale * on_force, scale[..., None] * on_slope)
+        on_slope = (-q * weights)[:, None, None, None] * both
+        on_force = (on_slope.reshape(-1, 2) @ ahead).reshape(-1, 2, 2)
+        force_weights = ForceWeights(owner, points, on_force, on_slope)
         # Near the tip q is constant, and only body forces contribute.
         falls = dq.any(axis=1)
         owner, points, weights, dq = owner[falls], points[falls], weights[falls], dq[falls]
         on_stress, on_gradient = [], []
-        for v in both[:, falls]:
+        for v in np.swapaxes(both[falls], 0, 1):
             of_v = stresses_of(self.model.elasticity[owner], v)
             on_stress.append(_outer(v @ ahead, dq) - (dq @ ahead)[:, None, None] * v)
             on_gradient.append(_outer(np.einsum("mij,mj->mi", of_v, dq), ahead))
@@ -184,8 +183,8 @@ class Interaction:
         """Contribution (2,) of forces (m, 2) at points (m, 2) of elements (m,) (N/m)."""
         ahead = self.fields.tip.direction
         pull = -self.fields.cutoff(points, self.radius)[0][:, None] * force
-        modes = self._auxiliary(owner, points)
-        return np.array([np.sum(pull * (v @ ahead)) for v in modes])
+        modes = (self._auxiliary(owner, points).reshape(-1, 2) @ ahead).reshape(-1, 2, 2)
+        return np.asarray(np.einsum("mi,mni->n", pull, modes))
 
     def _along(
         self, edges: Ints, points: Floats, weights: Floats, loaded: bool
@@ -194,7 +193,7 @@ class Interaction:
         owner, flat, out = self._flat(edges, points)
         ahead = self.fields.tip.direction
         on_stress, on_gradient = [], []
-        for v in self._auxiliary(owner, flat):
+        for v in np.swapaxes(self._auxiliary(owner, flat), 0, 1):
             of_v, v1 = stresses_of(self.model.elasticity[owner], v), v @ ahead
             pull = -(out @ ahead)[:, None, None] * v
             on_stress.append(pull + _outer(v1, out) if loaded else pull)
@@ -229,8 +228,8 @@ class Interaction:
         )
 
     def _auxiliary(self, owner: Ints, points: Floats) -> Floats:
-        """Auxiliary displacement gradients (2 modes, m, 2, 2) at points of elements (m,)."""
-        return np.swapaxes(self.fields.gradients(points, self._branch[owner]), 0, 1)
+        """Auxiliary displacement gradients (m, 2 modes, 2, 2) at points of elements (m,)."""
+        return self.fields.gradients(points, self._branch[owner])
 
 
 def _nearest(points: Floats, places: Floats) -> tuple[Ints, Floats]:

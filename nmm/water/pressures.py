@@ -105,7 +105,8 @@ class WaterPressures(Effect):
     def applied_forces(self, state: State) -> AppliedForces:
         """See `Effect.applied_forces`: those on crack faces."""
         now = Instant.of(state)
-        pairs = ((one.place, one.forces(state, now)) for one in self.given)
+        felt = (one for one in self.given if AppliedForces.counts(self._model, one.place))
+        pairs = ((one.place, one.forces(state, now)) for one in felt)
         return joined(AppliedForces.on(self._model, place, force) for place, force in pairs)
 
     def force(self, state: State, end: Instant) -> Floats:

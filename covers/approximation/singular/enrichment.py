@@ -52,12 +52,15 @@ def singular_fields(item: Enrichment, points: Floats, bearing: Floats) -> tuple[
     """
     turn = _turn(item)
     value, gradient = item.functions.evaluate(*_branch(item, points, bearing))
-    return value @ turn.T, turn @ gradient @ turn.T
+    # One product for all points: numpy multiplies small matrices pair by pair, ten times slower.
+    turned = gradient.reshape(-1, 4) @ np.kron(turn, turn).T
+    return (value.reshape(-1, 2) @ turn.T).reshape(value.shape), turned.reshape(gradient.shape)
 
 
 def singular_values(item: Enrichment, points: Floats, bearing: Floats) -> Floats:
     """Return the values (m, n, 2) of `singular_fields` alone."""
-    return np.asarray(item.functions.values(*_branch(item, points, bearing)) @ _turn(item).T)
+    value = item.functions.values(*_branch(item, points, bearing))
+    return np.asarray((value.reshape(-1, 2) @ _turn(item).T).reshape(value.shape))
 
 
 def _branch(item: Enrichment, points: Floats, bearing: Floats) -> tuple[Floats, Floats]:

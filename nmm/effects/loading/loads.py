@@ -74,8 +74,9 @@ class Loads(Effect):
         return total
 
     def applied_forces(self, state: State) -> AppliedForces:
-        factors = (load.factor(Instant.of(state)) for load in self.loads)
-        pairs = zip(self.loads, factors, strict=True)
+        felt = [one for one in self.loads if AppliedForces.counts(self._model, one.place)]
+        factors = (load.factor(Instant.of(state)) for load in felt)
+        pairs = zip(felt, factors, strict=True)
         return joined(AppliedForces.on(self._model, one.place, f * one.force) for one, f in pairs)
 
     def work(self, before: State, after: State) -> float:

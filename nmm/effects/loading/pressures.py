@@ -61,7 +61,8 @@ class SurfacePressures(Effect):
     def applied_forces(self, state: State) -> AppliedForces:
         """See `Effect.applied_forces`: those on crack faces."""
         now = Instant.of(state)
-        parts = ((one.place, one.forces(state, now)) for one in self.pressures)
+        felt = (one for one in self.pressures if AppliedForces.counts(self._model, one.place))
+        parts = ((one.place, one.forces(state, now)) for one in felt)
         return joined(AppliedForces.on(self._model, place, force) for place, force in parts)
 
     def force(self, state: State, end: Instant) -> Floats:

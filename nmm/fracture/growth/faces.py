@@ -87,16 +87,18 @@ class CrackFaces:
 
     def _at_ends(self, state: State) -> tuple[Floats, Floats, Floats]:
         """Return middles (m, 2, 2), openings (m, 2) and ways along (m, 2) of the ends (m)."""
-        one, two = (
-            side.place(state.frames, state.deformation).reshape(-1, 2, 2)
-            for side in (self.left, self.right)
-        )
+        one, two = self._flanks(state, state.deformation)
         # In small strain faces do not turn with the strain, however large it is.
-        shape = state.deformation if self.bend else np.zeros_like(state.deformation)
-        flanks = self.left.place(state.frames, shape) + self.right.place(state.frames, shape)
-        along = flanks[1::2] - flanks[::2]
+        left, right = (one, two) if self.bend else self._flanks(state, None)
+        both = left + right
+        along = both[:, 1] - both[:, 0]
         along = (along / np.maximum(np.hypot(*along.T), 1e-300)[:, None])[:, None]
         # The material lies on the left of an edge.
         jump = one - two
         opening = cross(np.repeat(along, 2, axis=1).reshape(-1, 2), jump.reshape(-1, 2))
         return (one + two) / 2, opening.reshape(-1, 2), (along * jump).sum(axis=2)
+
+    def _flanks(self, state: State, deformation: Floats | None) -> list[Floats]:
+        """Return the ends (m, 2, 2) of the faces on either side (m)."""
+        sides = (self.left, self.right)
+        return [side.place(state.frames, deformation).reshape(-1, 2, 2) for side in sides]

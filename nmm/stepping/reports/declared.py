@@ -89,7 +89,7 @@ def _checked(who: str, name: str, one: Quantity, view: View) -> Quantity:
             f"{counts[one.on]} rows, one for each of the {one.on}, and as many names of components "
             "as columns: correct the values"
         )
-    return replace(one, values=values)
+    return one if values is one.values else replace(one, values=values)
 
 
 def _on_elements(model: Model, one: Quantity) -> Quantity:
