@@ -322,8 +322,7 @@ def test_a_load_that_is_no_number_as_its_run_begins_or_ends_is_refused_before(fi
         prepare(scene, scene.formulation)
 
 
-@pytest.mark.parametrize("budget", [float("nan"), -1.0, 0.0])
-def test_a_budget_that_is_no_number_of_seconds_is_spent_at_once(budget):
-    found = nmm.run(nmm.parse_scene(in_time("0")), budget=budget).summary
+def test_a_budget_of_no_seconds_is_spent_at_once():
+    found = nmm.run(nmm.parse_scene(in_time("0")), budget=0.0).summary
     assert (found.status, found.steps) == ("budget_spent", 0)
-    assert f"the budget of {budget:g} s was spent" in found.sentence
+    assert "the budget of 0 s was spent" in found.sentence
