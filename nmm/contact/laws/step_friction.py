@@ -69,5 +69,6 @@ class StepFriction:
             for at, value in ((mine, self.limit), (its, then.force))
         )
         late = np.bincount(mine, self.limit * ~self.from_start, len(pairs))
-        share = np.divide(limit, end, out=np.zeros(len(pairs)), where=end > 0)
-        return share[its] * then.force, (late < limit / 2)[its] | (limit == 0)[its]
+        # Forces of rounding may be all that is left of a pair: their shares stay below one.
+        share = np.divide(then.force, end[its], out=np.zeros(len(its)), where=end[its] > 0)
+        return share * limit[its], (late < limit / 2)[its] | (limit == 0)[its]

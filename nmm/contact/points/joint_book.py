@@ -71,14 +71,22 @@ class JointBook:
             ~np.isin(self.pair_joint, self.joint[~now])
             for now in (self.points.bonded, self.points.tied)
         )
-        carried = self.pairs[(whole | ~self.pair_kink) & (held | ~self.pair_beyond)]
+        within = held | ~self.pair_beyond
+        carried = self.pairs[(whole | ~self.pair_kink) & within]
         corner, hidden = found.kind != FACE, np.isin(found.key, carried)
-        bonded = np.bincount(self.pairs[whole] // n, minlength=n) > 1
-        hidden[corner] |= bonded[found.vertex[corner]]
+        hidden[corner] |= self._between_joints(whole & within, n)[found.vertex[corner]]
         return hidden
 
+    def _between_joints(self, chosen: Bools, n: int) -> Bools:
+        """Which of ``n`` corners have chosen pairs (k,) of two joints or more.
+
+        Where both faces of a joint are one edge long a corner has two pairs of that joint alone.
+        """
+        sides = np.unique(self.pair_joint[chosen] * n + self.pairs[chosen] // n)
+        return np.bincount(sides % n, minlength=n) > 1
+
     def bearing(self, contacts: ContactPoints) -> Ints:
-        """Return the joints whose ends bear, as terms hold no longer all of theirs."""
+        """Return the joints whose ends bear, as terms no longer hold all of theirs."""
         return np.intersect1d(
             self.joint[self._among(contacts, ~contacts.tied)], self.pair_joint[self.pair_beyond]
         )

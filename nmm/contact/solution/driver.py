@@ -250,7 +250,7 @@ def turned_back(problem: StepProblem, answer: StepAnswer, motion: Floats | None)
         return np.zeros(problem.n_contacts, dtype=bool)
     sheared = problem.tangent_rows[:, : len(motion)] @ motion
     against = np.where(answer.shear_force < 0, sheared, -sheared)
-    return np.asarray(against > NEXT_TO_NOTHING * largest(np.abs(sheared)))
+    return np.asarray(against > NEXT_TO_NOTHING * largest(np.abs(sheared), initial=0.0))
 
 
 def _lost(

@@ -33,3 +33,10 @@ def test_bodies_that_a_correction_finds_apart_have_taken_what_they_did() -> None
 def test_a_correction_without_contacts_keeps_what_was_taken() -> None:
     first = friction([1, 2], limit=[2.0, 4.0], force=[2.0, 4.0], slid=[1.0, 3.0])
     assert first.corrected(friction([])).taken == pytest.approx(14.0, rel=1e-14)
+
+
+def test_forces_of_rounding_share_the_friction_of_their_bodies() -> None:
+    # 3 N on 2 m; shares of 1e-320 N are numbers, where limits over such forces are not.
+    first = friction([1, 2], limit=[1.0, 2.0], force=[1.0, 2.0], slid=[0.0, 0.0])
+    then = friction([3, 4], force=[1e-320, 0.0], slid=[2.0, 0.0])
+    assert first.corrected(then).taken == pytest.approx(3.0, rel=1e-14)
