@@ -107,7 +107,9 @@ def overview(run: RunData, *, path: PathLike | None = None) -> "list[Axes]":
     path
         File to save the figure in.
     """
-    known, clock = run.history, _clock(run)
+    clock = _clock(run)
+    # A run that ended before its first step has columns without rows.
+    known = {name: column for name, column in run.history.items() if len(column)}
     groups: list[tuple[Sequence[str], bool]] = [
         (_seen(known, [*ENERGIES, *family(known, DAMPING)]), False),
         ([name for name in ("load_factor",) if _changes(known, name) and name != clock], False),
