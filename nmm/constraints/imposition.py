@@ -127,7 +127,7 @@ class Imposition(ABC):
 
     @property
     def bends(self) -> bool:
-        """Whether its forces are no lines in the unknowns, where no body turns."""
+        """Whether its forces are not linear in the unknowns though no body turns."""
         return False
 
     @property

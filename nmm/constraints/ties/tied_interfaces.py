@@ -133,7 +133,7 @@ class TiedInterfaces(Effect):
         return StepForce(turned.T @ total, stiffness, rounding=rounding)
 
     def _bent_force(self, before: State, after: State, span: Span) -> StepForce:
-        """Return the same of matter that bends, in axes that stay."""
+        """Return `step_force` of held matter that bends by any angle, in axes that do not turn."""
         total = span.weight * self.force(after, Instant.of(after))
         if span.weight < 1:
             total += (1 - span.weight) * self.force(before, Instant.of(before))

@@ -20,10 +20,13 @@ def supports(run: EndedRun) -> Findings:
     if held is None or not stepper.model.manifold.shared_covers:
         return
     strained = stepper.model.strain_energy(state)
-    ties = [one for one in held.ties if one.springs is not None]
-    ties = [one for one in ties if one.interface.first.normal is not None]
+    edges = [one for one in held.ties if one.interface.first.normal is not None]
     jumps = dict(zip(map(id, held.ties), held.jumps.at(state, Instant.of(state)), strict=True))
-    energy = {one.interface.name: one.energy(state, jumps[id(one)]) for one in ties}
+    energy = {
+        one.interface.name: one.energy(state, jumps[id(one)])
+        for one in edges
+        if one.springs is not None
+    }
     if not energy or not strained > 0:
         return
     softest = max(energy, key=lambda name: energy[name])
