@@ -120,20 +120,17 @@ VERBS = (verify, publish)
 
 
 def _chosen(names: list[str], slow: bool) -> "Iterator[tuple[Case, str]]":
-    """Yield benchmarks with their formulations; a name that is a case folder is that case."""
+    """Yield benchmarks with their formulations, each once, after names that are case folders."""
     from nmm.verification import runs
     from nmm.verification.published import PublishedCase, is_published
 
-    if not names:
-        yield from runs(None, slow)
-    for name in names:
-        if is_published(Path(name)):
-            case = PublishedCase(Path(name))
-            for remark in case.remarks:
-                typer.echo(f"{case.name}: {remark}", err=True)
-            yield case, case.formulations[0]
-        else:
-            yield from runs([name], slow)
+    folders = [name for name in names if is_published(Path(name))]
+    for folder in folders:
+        case = PublishedCase(Path(folder))
+        for remark in case.remarks:
+            typer.echo(f"{case.name}: {remark}", err=True)
+        yield case, case.formulations[0]
+    yield from runs([name for name in names if name not in folders] if names else None, slow)
 
 
 def _left_out(names: list[str], slow: bool) -> int:

@@ -87,19 +87,17 @@ def named(text: str) -> list[str]:
 
 
 def runs(names: Iterable[str] | None = None, slow: bool = False) -> Iterator[tuple[Case, str]]:
-    """Yield every variant of the named benchmarks (all when None) with each formulation.
+    """Yield every variant of the named benchmarks (all when None) with each formulation, once.
 
     Variants of more than a few seconds are left out unless ``slow``, or unless their benchmark is
     named in full.
     """
-    chosen = {
-        name: text is None or text != name
-        for text in ([None] if names is None else names)
-        for name in (CASES.table if text is None else named(text))
-    }
-    for name, of_many in chosen.items():
+    texts = None if names is None else list(names)
+    chosen = CASES.table if texts is None else [name for text in texts for name in named(text)]
+    for name in dict.fromkeys(chosen):
+        in_full = texts is not None and name in texts
         for case in CASES.load_said(name).variants():
-            if case.slow and of_many and not slow:
+            if case.slow and not in_full and not slow:
                 continue
             for formulation in case.formulations:
                 yield case, formulation

@@ -155,6 +155,13 @@ def test_a_name_stands_for_all_that_begin_with_it():
         named("")
 
 
+def test_a_benchmark_that_two_names_stand_for_runs_once():
+    # It has two variants of one formulation.
+    result = call("verify", "A0b", "A0B", "A0b")
+    assert result.exit_code == 0, result.output
+    assert "2 runs, all within tolerance" in result.stdout
+
+
 def test_slow_variants_run_when_their_benchmark_is_named_in_full(monkeypatch):
     class Long(Case):
         name, title, source = "B99 long", "", ""
