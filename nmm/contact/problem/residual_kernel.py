@@ -11,6 +11,7 @@ import numpy as np
 from integration.arrays import Floats, Ints
 from nmm.compiled import compiled, place
 from nmm.contact.problem.row_products import Compressed
+from nmm.solvers.kernels.scaling_kernel import diagonal
 
 
 @compiled
@@ -140,14 +141,9 @@ def weighted(
     stiffness: Floats,
 ) -> Floats:
     """Inverse roots (n,) of the diagonal of matrix and springs; 1 where that is not positive."""
-    pointers, rows, entries = matrix
     normal_pointers, normal_columns, normal_entries = normal_rows
     tangent_pointers, tangent_columns, tangent_entries = tangent_rows
-    found = np.zeros(len(pointers) - 1)
-    for j in range(len(found)):
-        for k in range(place(pointers[j]), place(pointers[j + 1])):
-            if rows[k] == j:
-                found[j] += entries[k]
+    found = diagonal(*matrix)
     for c in range(stiffness.shape[1]):
         for k in range(place(normal_pointers[c]), place(normal_pointers[c + 1])):
             found[place(normal_columns[k])] += normal_entries[k] ** 2 * stiffness[0, c]

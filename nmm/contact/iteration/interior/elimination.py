@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from integration.arrays import Bools, Floats
-from nmm.compiled import compiled, place
+from nmm.compiled import compiled
 from nmm.contact.iteration.interior.centrality import PointColumns
 from nmm.contact.problem.residual_kernel import SpringColumns
 from nmm.contact.problem.row_products import Compressed, products_along, push
@@ -82,22 +82,11 @@ def reduced(at: PointColumns, springs: SpringColumns, sides: SideColumns, couple
         if not smooth[c]:
             stiffness[1, c] = over(1.0, soft[1, c] + ratio[1, c] + ratio[2, c])
             stiffness[2, c] = stiffness[1, c] * (ratio[2, c] - ratio[1, c]) * slope[c]
-    rest = _inner(increment, springs)
+    rest = np.empty(len(increment))
+    products_along(springs.matrix, increment, rest)  # columns of a symmetric one serve as rows
+    rest -= springs.load
     push(springs.normal_rows, springs.tangent_rows, normal, shear, rest)
     return rest, jump, lacks, ratio, stiffness, slope
-
-
-@compiled
-def _inner(increment: Floats, springs: SpringColumns) -> Floats:
-    """``matrix @ increment - load`` (n,)."""
-    pointers, columns, entries = springs.matrix
-    found = np.empty(len(increment))
-    for i in range(len(increment)):
-        inner = 0.0
-        for k in range(place(pointers[i]), place(pointers[i + 1])):
-            inner += entries[k] * increment[place(columns[k])]
-        found[i] = inner - springs.load[i]
-    return found
 
 
 @compiled
