@@ -195,7 +195,7 @@ def _stopped_told(out: Path) -> Iterator[None]:
 def _tell_done(scene: "Scene", done: "Run", out: Path, quiet: bool, pictures: bool = False) -> None:
     """Tell of a run that has ended, with the files that were asked for; leave with its code."""
     from nmm.results.summary_lines import render
-    from nmm.stepping.drive.verdict import EXIT_CODES
+    from nmm.stepping.drive.verdict import status_code
 
     files = _shown(scene, done, out, pictures)
     tell_run(scene, done)
@@ -203,7 +203,7 @@ def _tell_done(scene: "Scene", done: "Run", out: Path, quiet: bool, pictures: bo
         console().print(render(done.summary))
         tell_files([out, *files])
         tell_next(f"nmm plot {in_shell(out)}", f"nmm export {in_shell(out)} for ParaView")
-    if code := EXIT_CODES.get(done.summary.status, 2):
+    if code := status_code(done.summary.status):
         raise typer.Exit(code)
 
 

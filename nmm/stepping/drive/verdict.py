@@ -26,6 +26,11 @@ MEANT = {
 """Every code in words."""
 
 
+def status_code(status: str) -> int:
+    """Return the exit code of a run's status; that of a failed one for runs without an end."""
+    return EXIT_CODES.get(status, EXIT_CODES[FAILED])
+
+
 @dataclass(frozen=True)
 class RunVerdict:
     """The end of a run.

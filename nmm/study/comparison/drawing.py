@@ -7,7 +7,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.results.frame import Frame
-from nmm.stepping.drive.verdict import EXIT_CODES
+from nmm.stepping.drive.verdict import status_code
 from nmm.stepping.run import Run
 from nmm.study.comparison.runs import Comparison
 
@@ -47,7 +47,7 @@ def draw(study: Comparison, path: Path) -> None:
 def heading(study: Comparison) -> str:
     """Return the title, with the runs whose pictures are no answer and those without a picture."""
     ends = [(x.name, "not run" if x.run is None else x.run.summary.status) for x in study.runs]
-    bad = [f"{name}: {end}" for name, end in ends if EXIT_CODES.get(end, 1)]
+    bad = [f"{name}: {end}" for name, end in ends if status_code(end)]
     return "\n".join(line for line in (study.title, ", ".join(bad)) if line)
 
 

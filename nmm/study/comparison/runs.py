@@ -6,7 +6,7 @@ from time import process_time
 
 from nmm.errors import NmmError, in_a_line
 from nmm.progress import Progress
-from nmm.stepping.drive.verdict import EXIT_CODES
+from nmm.stepping.drive.verdict import status_code
 from nmm.stepping.run import Run, run
 from nmm.study.cases.families import family_of
 from nmm.study.cases.measure import method_of
@@ -82,7 +82,7 @@ def exit_code(study: Comparison) -> int:
     """Return 1 where a case could not be run, else what the first run that ended badly leaves."""
     if any(one.run is None for one in study.runs):
         return 1
-    codes = (EXIT_CODES.get(run.summary.status, 2) for _, run, _ in study.made)
+    codes = (status_code(run.summary.status) for _, run, _ in study.made)
     return next((code for code in codes if code), 0)
 
 

@@ -6,12 +6,13 @@ from typing import ClassVar
 
 import numpy as np
 
+from integration.polygons import Polygons
 from nmm.assembly.places import on_edges
-from nmm.formulation import EnrichmentTable, Formulation
+from nmm.formulation import Formulation
 from nmm.verification.base import Check, Checks, limit
 from nmm.verification.continuum import Problem, load, middles, pin, traction_of
 from nmm.verification.problems.cracks.hole_with_cracks import HoleWithCracks
-from nmm.verification.problems.cracks.stationary_cracks import LAW, CrackedBody, Line
+from nmm.verification.problems.cracks.stationary_cracks import CrackedBody, Line
 
 HALF = 3.0
 """Half of the side of the square that is cut out of the plane, in radii of the hole."""
@@ -51,17 +52,11 @@ class CracksAtHole(CrackedBody):
 
     def problem(self, formulation: Formulation) -> Problem:
         """Return the square with three pins on its sides."""
-        from integration.polygons import Polygons
-        from nmm.model.from_polygons import solid
-
         turn = 2 * np.pi * np.arange(CORNERS) / CORNERS
         hole = np.stack([np.cos(turn), np.sin(turn)], axis=1)
         outer = HALF * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
         region = Polygons.from_rings([[outer, hole]]).oriented()
-        cover = formulation.cover.model_copy(
-            update={"enrichment": EnrichmentTable(radius=self.enriched)}
-        )
-        model = solid(region, cover, [LAW], "strain", cracks=self.cracks)
+        model = self.cracked(formulation, region, *self.cracks)
         far = np.abs(middles(model)).max(axis=1) > HALF - 1e-9
         exact = HoleWithCracks(self.length, self.both)
         pins = [pin(model, [HALF, HALF]), pin(model, [HALF, -HALF], (True, False))]

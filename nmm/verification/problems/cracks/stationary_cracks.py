@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from integration.arrays import Floats
+from integration.polygons import Polygons
 from nmm.assembly.places import on_edges, on_segment
 from nmm.formulation import EnrichmentTable, Formulation
 from nmm.materials.elastic import Elastic
@@ -47,14 +48,14 @@ class CrackedBody(ContinuumCase):
             for tip in range(len(found.model.cut.tips))
         ]
 
-    def cracked(self, formulation: Formulation, ring: Floats, crack: Line) -> "Model":
+    def cracked(self, formulation: Formulation, region: Polygons, *cracks: Line) -> "Model":
         """Return the body with tip functions."""
         from nmm.model.from_polygons import solid
 
         cover = formulation.cover.model_copy(
             update={"enrichment": EnrichmentTable(radius=self.enriched)}
         )
-        return solid(polygon(ring), cover, [self.law], "strain", cracks=[crack])
+        return solid(region, cover, [self.law], "strain", cracks=cracks)
 
 
 def pulled(model: "Model", width: float) -> Problem:
@@ -101,7 +102,9 @@ class EdgeCrack(CrackedBody):
     def problem(self, formulation: Formulation) -> Problem:
         """Return the plate."""
         ring = np.array([[0.0, -1.0], [1.0, -1.0], [1.0, 1.0], [0.0, 1.0]])
-        return pulled(self.cracked(formulation, ring, [[-0.1, 0.0], [self.length, 0.0]]), 1.0)
+        return pulled(
+            self.cracked(formulation, polygon(ring), [[-0.1, 0.0], [self.length, 0.0]]), 1.0
+        )
 
     def checks(self, formulation: str) -> Checks:
         (tip,) = self.tips(formulation, self.position, self.radius)
@@ -129,7 +132,7 @@ class CentreCrack(CrackedBody):
     def problem(self, formulation: Formulation) -> Problem:
         """Return the plate."""
         ring = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
-        return pulled(self.cracked(formulation, ring, [[-0.5, 0.0], [0.5, 0.0]]), 1.0)
+        return pulled(self.cracked(formulation, polygon(ring), [[-0.5, 0.0], [0.5, 0.0]]), 1.0)
 
     def checks(self, formulation: str) -> Checks:
         expected = 1.33371 * np.sqrt(np.pi * 0.5)
@@ -158,7 +161,7 @@ class ShearedCrack(CrackedBody):
     def problem(self, formulation: Formulation) -> Problem:
         """Return the plate of 7 x 16."""
         ring = np.array([[0.0, -8.0], [7.0, -8.0], [7.0, 8.0], [0.0, 8.0]])
-        model = self.cracked(formulation, ring, [[-0.5, 0.0], [3.5, 0.0]])
+        model = self.cracked(formulation, polygon(ring), [[-0.5, 0.0], [3.5, 0.0]])
         bottom = on_segment(model.manifold, np.array([[0.0, -8.0], [7.0, -8.0]]), order=8)
         top = on_segment(model.manifold, np.array([[0.0, 8.0], [7.0, 8.0]]), order=8)
         shear = load(model, top, lambda p, n: np.tile([1.0, 0.0], (len(p), 1)))
