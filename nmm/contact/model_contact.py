@@ -127,10 +127,11 @@ class ModelContact(ContactWorkings):
         self._sought = found, crossed
         return points
 
-    def uncovers(self, sought: ContactPoints, broken: ContactPoints) -> bool:
-        """Whether more ends of joints bear once bonds are ``broken`` than were ``sought``."""
+    def uncovers(self, before: BrokenBonds | None, broken: BrokenBonds) -> bool:
+        """Whether more ends of joints bear once bonds are ``broken`` than did ``before``."""
         book = self.record.book
-        return len(book.bearing(broken)) > len(book.bearing(sought))
+        sought = book if before is None else book.opened_at(before.opened)
+        return bool((book.opened_at(broken.opened).pair_bears & ~sought.pair_bears).any())
 
     def release(self, solved: ContactSolution, gone: Bools) -> float:
         """Let bonds (m,) give way before the next step, though the solution be no step.

@@ -18,6 +18,7 @@ from nmm.contact.points.continued.inheritance import (
 )
 from nmm.contact.points.continued.kept_energy import stretched
 from nmm.contact.points.cracks.bonded_cracks import BondedCracks
+from nmm.contact.points.joint_book import standing_open
 from nmm.contact.solution.record import ContactRecord
 
 # How far open contacts are that a change of the model continues, in sizes of the domain.
@@ -63,6 +64,7 @@ def succeeding(
     laid = ~(added & inside) | seamless
     book, added = book.only(laid), (added & ~(inside & seamless))[laid]
     book = placed(book, candidates.joints(book, state), added)
+    book = book.opened_at(standing_open(book.points))
     size = kin.new.elements.extent
     found, points = candidates.sought(ContactRecord(book), state, HELD * size)
     book = replace(book, left=book.left.take(np.zeros(0, dtype=np.int64)))  # handed on just now

@@ -50,4 +50,5 @@ def let_go(
         shear_force=np.where(dropped, 0.0, points.shear_force),
         history=history,
     )
-    return replace(record, book=replace(record.book, points=points)), shed
+    opened = contacts.key[gone & (solved.answer.normal_force >= 0)]
+    return replace(record, book=replace(record.book, points=points).opened_at(opened)), shed

@@ -76,8 +76,8 @@ def follow_joints(
     pairs = pair_key(surface, vertex, edge)
     none = found.take(np.zeros(0, dtype=np.int64))
     kink = _in_kink(surface, joints.take(joint), edge)
-    beyond = np.zeros(len(pairs), dtype=bool)
-    return JointBook(found, points.joint, pairs, joint, kink, beyond, lost=none, left=none)
+    no = np.zeros(len(pairs), dtype=bool)
+    return JointBook(found, points.joint, pairs, joint, kink, no, no, lost=none, left=none)
 
 
 def _in_kink(surface: Surface, ending: Joints, edge: Ints) -> Bools:

@@ -36,8 +36,10 @@ class JointBook:
         bounds the corner's way unless bonds hold it.
     pair_beyond
         (k,) whether consistent terms hold the joint at points within it: its ends lie beyond them,
-        and bear as soon as one of its bonds broke or softens. On its points alone it would turn
-        over before.
+        and bear as soon as one of its bonds gives way where it opens. On its points alone it would
+        turn over before. Where all points are pressed they carry the whole of the pressure.
+    pair_bears
+        (k,) whether it does.
     lost
         Points of joints that came apart; the search finds what touches there.
     left
@@ -51,6 +53,7 @@ class JointBook:
     pair_joint: Ints
     pair_kink: Bools
     pair_beyond: Bools
+    pair_bears: Bools
     lost: ContactPoints
     left: ContactPoints
 
@@ -61,20 +64,17 @@ class JointBook:
     def hides(self, found: Contacts, n: int) -> Bools:
         """Which contacts found among ``n`` edges followed joints carry already.
 
-        They are those at the ends of joints, but for ends beyond their points and the other edges
-        of kinks beside joints that do not hold, and those of corners that bonds hold on both sides:
-        what such a corner may enter only beside its neighbours, as a kink, it does not.
+        They are those at the ends of joints, but for ends that bear and the other edges of kinks
+        beside joints that do not hold, and those of corners that bonds hold on both sides: what
+        such a corner may enter only beside its neighbours, as a kink, it does not.
         """
         if not len(self.pairs):
             return np.zeros(len(found), dtype=bool)
-        whole, held = (
-            ~np.isin(self.pair_joint, self.joint[~now])
-            for now in (self.points.bonded, self.points.tied)
-        )
-        within = held | ~self.pair_beyond
-        carried = self.pairs[(whole | ~self.pair_kink) & within]
+        whole = ~np.isin(self.pair_joint, self.joint[~self.points.bonded])
+        carried = self.pairs[(whole | ~self.pair_kink) & ~self.pair_bears]
         corner, hidden = found.kind != FACE, np.isin(found.key, carried)
-        hidden[corner] |= self._between_joints(whole & within, n)[found.vertex[corner]]
+        between = self._between_joints(whole & ~self.pair_bears, n)
+        hidden[corner] |= between[found.vertex[corner]]
         return hidden
 
     def _between_joints(self, chosen: Bools, n: int) -> Bools:
@@ -85,11 +85,13 @@ class JointBook:
         sides = np.unique(self.pair_joint[chosen] * n + self.pairs[chosen] // n)
         return np.bincount(sides % n, minlength=n) > 1
 
-    def bearing(self, contacts: ContactPoints) -> Ints:
-        """Return the joints whose ends bear, as terms no longer hold all of theirs."""
-        return np.intersect1d(
-            self.joint[self._among(contacts, ~contacts.tied)], self.pair_joint[self.pair_beyond]
-        )
+    def opened_at(self, points: Ints) -> "JointBook":
+        """Return the book with ends that bear where bonds of these keys gave way as they opened."""
+        waiting = self.pair_beyond & ~self.pair_bears
+        if not len(points) or not waiting.any():
+            return self
+        now = waiting & np.isin(self.pair_joint, self.joint[np.isin(self.points.key, points)])
+        return replace(self, pair_bears=self.pair_bears | now)
 
     def without(self, contacts: ContactPoints) -> "JointBook":
         """Return the book without the bonds and the terms that are gone among the contacts."""
@@ -159,18 +161,20 @@ class JointBook:
         parted = self.joint[lost]
         gone = np.isin(self.joint, parted) & ~points.bonded
         before = _turned(self.lost, faces)
+        book = self.opened_at(standing_open(points))
         left = points.take(gone) if gone.any() or len(self.left) else self.left
         if not gone.any():
-            return replace(self, points=points, lost=before, left=left)
+            return replace(book, points=points, lost=before, left=left)
         whole = ~np.isin(self.pair_joint, parted)
         return replace(
-            self,
+            book,
             points=points.take(~gone),
             joint=self.joint[~gone],
             pairs=self.pairs[whole],
             pair_joint=self.pair_joint[whole],
             pair_kink=self.pair_kink[whole],
             pair_beyond=self.pair_beyond[whole],
+            pair_bears=book.pair_bears[whole],
             lost=concatenate([before, given_up(left)]),
             left=left,
         )
@@ -179,6 +183,11 @@ class JointBook:
     def broken(self) -> int:
         """Number of points whose bond is broken, lost ones included."""
         return int((~self.points.bonded).sum()) + len(self.lost)
+
+
+def standing_open(points: ContactPoints) -> Ints:
+    """Return the keys of points without a bond of consistent terms that nothing presses."""
+    return points.key[~points.tied & (points.normal_force >= 0)]
 
 
 def given_up(points: ContactPoints) -> ContactPoints:

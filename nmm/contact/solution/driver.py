@@ -101,7 +101,7 @@ class ContactSolver:
         """
         self.memory.moving = request.step is not None
         passes, gone, besides = 0, request.broken, more(contacts)
-        loss = 0.0 if gone is None else gone.loss
+        loss, opened = (0.0, contacts.key[:0]) if gone is None else (gone.loss, gone.opened)
         while True:
             agreed = self._agreed(contacts, rows, request, besides)
             answer, iteration = agreed.answer, agreed.iteration
@@ -126,8 +126,9 @@ class ContactSolver:
             overloaded = broken, brittle
             contacts, stored = given_way(self._laws, contacts, overloaded, loaded, springs, limits)
             loss += stored
-            gone = BrokenBonds(contacts, loss)
-            if request.uncovers is not None and request.uncovers(contacts):
+            opened = np.union1d(opened, contacts.key[broken & (loaded.normal_force >= 0)])
+            gone = BrokenBonds(contacts, loss, opened)
+            if request.uncovers is not None and request.uncovers(gone):
                 return replace(found, broken=gone, uncovered=True)
             besides = more(contacts) if freed.any() else besides
 

@@ -88,10 +88,14 @@ class ContactSolution:
 
 @dataclass(frozen=True)
 class BrokenBonds:
-    """Contacts at the start of a step in which bonds broke, and the energy that these lost (J)."""
+    """Contacts at the start of a step in which bonds broke, and the energy that these lost (J).
+
+    ``opened`` are the keys of those that gave way where nothing pressed them.
+    """
 
     contacts: ContactPoints
     loss: float
+    opened: Ints
 
     def among(self, sought: ContactPoints) -> ContactPoints:
         """Return contacts of a new search for the same step, with these bonds broken."""
@@ -100,7 +104,7 @@ class BrokenBonds:
 
     def before(self, record: "ContactRecord") -> "ContactRecord":
         """Return the record of the step's start without these bonds."""
-        return with_parts(record, book=record.book.without(self.contacts))
+        return with_parts(record, book=record.book.without(self.contacts).opened_at(self.opened))
 
 
 @dataclass(frozen=True)

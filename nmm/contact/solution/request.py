@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from integration.arrays import Floats
 from integration.sparse import csc_array
 from nmm.contact.enforcement.null_space import NullSpace
-from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.solution.record import Breaking, BrokenBonds
 from nmm.solvers.linear import LinearSolver
 
@@ -36,7 +35,7 @@ class StepRequest:
     broken
         Bonds that broke earlier in the same step; None where none did.
     uncovers
-        Whether contacts with bonds broken have ends of joints that bear and are not among them.
+        Whether ends of joints bear once these bonds broke that are not among the contacts.
         None: they never have.
     time
         At its end (s); None where nothing depends on time.
@@ -59,7 +58,7 @@ class StepRequest:
     breaking: Breaking = "all"
     near: Callable[[Floats], bool] | None = None
     broken: BrokenBonds | None = None
-    uncovers: Callable[[ContactPoints], bool] | None = None
+    uncovers: Callable[[BrokenBonds], bool] | None = None
     time: float | None = None
     foreseen: Floats | None = None
     among: Floats | None = None

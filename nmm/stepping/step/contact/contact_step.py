@@ -161,7 +161,7 @@ class ContactStepSolver:
             breaking=breaking,
             near=near,
             broken=sought.broken,
-            uncovers=partial(self.search.contact.uncovers, sought.contacts),
+            uncovers=partial(self.search.contact.uncovers, sought.broken),
             time=equations.end.time,
             foreseen=None if foreseen is None else foreseen.increment,
             among=equations.among,
