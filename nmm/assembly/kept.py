@@ -1,102 +1,116 @@
-"""Caches of values computed from a state, or from an array of it."""
+"""Methods whose last values are kept, told apart by what they are given: a state, an array.
+
+The values are in the dictionary of the object whose method it is, and nothing leads from them back
+to it: once a run is dropped it is freed, without a search for cycles. A value that is kept costs
+the one call that asks for it.
+"""
 
 from collections.abc import Callable, Hashable
-from typing import TYPE_CHECKING, ClassVar, Generic, ParamSpec, TypeVar
+from functools import wraps
+from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, TypeVar
 
 from integration.arrays import Floats
 
 if TYPE_CHECKING:
     from nmm.assembly.state import Frames, State
 
+Owner = TypeVar("Owner")
 Given = ParamSpec("Given")
 G = TypeVar("G")
 T = TypeVar("T")
 
+# What names of kept values begin with: no attribute has such a name.
+MARK = "kept: "
 
-class Kept(Generic[Given, T]):
-    """Values of what was given last, told apart by a ``key`` of it."""
 
-    most: ClassVar[int] = 2
+def kept_of_object(make: Callable[[Owner, G], T]) -> Callable[[Owner, G], T]:
+    """A method that keeps its values of the last two objects: states, arrays, which never change.
 
-    def __init__(self, make: Callable[Given, T], key: Callable[Given, Hashable]) -> None:
-        self._make, self._key = make, key
-        # What was given is held too, so that nothing else takes over its identity.
-        self._known: list[tuple[Hashable, object, T]] = []
+    They are told apart by identity.
+    """
+    name = MARK + make.__qualname__
 
-    def of(self, *given: Given.args, **named: Given.kwargs) -> T:
-        """Return the value of what is given, computed unless it is kept."""
-        key = self._key(*given, **named)
-        for known, _, value in self._known:
-            if known == key:
+    @wraps(make)
+    def of(owner: Owner, given: G) -> T:
+        known: tuple[tuple[G, T], ...]
+        try:
+            known = owner.__dict__[name]
+        except KeyError:
+            known = ()
+        for one, value in known:
+            if one is given:
                 return value
-        value = self._make(*given, **named)
-        self._known = [(key, given, value), *self._known][: self.most]
+        value = make(owner, given)
+        owner.__dict__[name] = (given, value), *known[:1]
         return value
 
-    def forget(self) -> None:
-        """Drop all values: what they are computed with has changed."""
-        self._known = []
+    return of
 
 
-class KeptOfObject(Generic[G, T]):
-    """Values of the last two objects, which are never changed, told apart by identity."""
+def kept_of_place(make: Callable[[Owner, "State"], T]) -> Callable[[Owner, "State"], T]:
+    """A method that keeps its values of the last two places of the material.
 
-    def __init__(self, make: Callable[[G], T]) -> None:
-        self._make = make
-        self._known: list[tuple[G, T]] = []
+    It depends on no rates and on no time.
+    """
+    name = MARK + make.__qualname__
 
-    def of(self, given: G) -> T:
-        """Return the value of an object, computed unless it is kept."""
-        for known, value in self._known:
-            if known is given:
-                return value
-        value = self._make(given)
-        self._known = [(given, value), *self._known[:1]]
-        return value
-
-    def forget(self) -> None:
-        """Drop all values: what they are computed with has changed."""
-        self._known = []
-
-
-class KeptOfStates(KeptOfObject["State", T]):
-    """Values of the last two states."""
-
-
-class KeptOfArray(KeptOfObject[Floats, T]):
-    """Values of the last two arrays."""
-
-
-class KeptOfPlaces(Generic[T]):
-    """Values that depend on the place of the material alone, not on rates or time."""
-
-    most: ClassVar[int] = 2
-
-    def __init__(self, make: Callable[["State"], T]) -> None:
-        self._make = make
-        self._known: list[tuple[Frames, Floats, T]] = []
-
-    def of(self, state: "State") -> T:
-        """Return the value of the place of a state, computed unless it is kept."""
+    @wraps(make)
+    def of(owner: Owner, state: "State") -> T:
+        known: tuple[tuple[Frames, Floats, T], ...]
+        try:
+            known = owner.__dict__[name]
+        except KeyError:
+            known = ()
         frames, deformation = state.frames, state.deformation
-        for place, bent, value in self._known:
+        for place, bent, value in known:
             if place is frames and bent is deformation:
                 return value
-        value = self._make(state)
-        self._known = [(frames, deformation, value), *self._known][: self.most]
+        value = make(owner, state)
+        owner.__dict__[name] = (frames, deformation, value), *known[:1]
         return value
 
-    def forget(self) -> None:
-        """Drop all values: what they are computed with has changed."""
-        self._known = []
+    return of
 
 
-class KeptOfInstants(Kept[["State", float], T]):
-    """Values of a place and a time, of which the last two are kept."""
+def kept(
+    key: Callable[Concatenate[Owner, Given], Hashable], most: int = 2
+) -> Callable[[Callable[Concatenate[Owner, Given], T]], Callable[Concatenate[Owner, Given], T]]:
+    """A method that keeps its last values, told apart by a ``key`` of what it is given.
 
-    def __init__(self, make: Callable[["State", float], T]) -> None:
-        super().__init__(make, lambda state, time: (*_place(state), time))
+    A key may have identities of what is given, which is held too: nothing else takes them over.
+    """
+
+    def keeping(
+        make: Callable[Concatenate[Owner, Given], T],
+    ) -> Callable[Concatenate[Owner, Given], T]:
+        name = MARK + make.__qualname__
+
+        @wraps(make)
+        def of(owner: Owner, /, *given: Given.args, **named: Given.kwargs) -> T:
+            now = key(owner, *given, **named)
+            known: tuple[tuple[Hashable, object, T], ...]
+            try:
+                known = owner.__dict__[name]
+            except KeyError:
+                known = ()
+            for one, _, value in known:
+                if one == now:
+                    return value
+            value = make(owner, *given, **named)
+            owner.__dict__[name] = (now, given, value), *known[: most - 1]
+            return value
+
+        return of
+
+    return keeping
 
 
-def _place(state: "State") -> tuple[int, int]:
-    return id(state.frames), id(state.deformation)
+def place_and_time(owner: Any, state: "State", time: float) -> tuple[int, int, float]:
+    """A key of `kept`: where the material is, and when."""
+    return id(state.frames), id(state.deformation), time
+
+
+def forget_kept(owner: object) -> None:
+    """Drop all kept values of an object: what they are made with has changed."""
+    for name in [name for name in owner.__dict__ if name.startswith(MARK)]:
+        del owner.__dict__[name]

@@ -13,7 +13,7 @@ import numpy as np
 from covers.approximation.manifold import Manifold
 from integration.arrays import Floats, Ints
 from integration.sparse import csc_array
-from nmm.assembly.kept import KeptOfArray
+from nmm.assembly.kept import kept_of_object
 from nmm.assembly.laws_at_points import INITIAL, STRESS, SWELLING, LawsAtPoints
 from nmm.assembly.stress_points import StressPoints, nearest
 from nmm.assembly.unresisted_strains import resisting
@@ -115,12 +115,12 @@ class Matter(LawsAtPoints):
 
     def force(self, deformation: Floats, stress: Floats) -> Floats:
         """Return the internal force (n,) of unknowns (n,) and of the stress (Q, 3) of points."""
-        return product(self.rest, deformation) + self._summed.of(stress)
+        return product(self.rest, deformation) + self._summed(stress)
 
-    @cached_property
-    def _summed(self) -> KeptOfArray[Floats]:
+    @kept_of_object
+    def _summed(self, stress: Floats) -> Floats:
         """Force (n,) of the last stress, at the end of a step and the start of the next one."""
-        return KeptOfArray(lambda stress: self.thickness * self.points.force(stress))
+        return self.thickness * self.points.force(stress)
 
     def stiffness(self, tangent: Floats, symmetric: bool = True) -> csc_array:
         """Return the tangent stiffness (n, n) of tangents (Q, 3, 3), or its symmetric part.

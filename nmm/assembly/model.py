@@ -10,7 +10,7 @@ from integration.arrays import Bools, Floats, Ints
 from integration.sparse import csc_array
 from nmm.assembly.elastic_solid import ElasticSolid
 from nmm.assembly.elements import element_matrices
-from nmm.assembly.kept import KeptOfStates
+from nmm.assembly.kept import kept_of_object
 from nmm.assembly.matter import Matter
 from nmm.errors import FormulationError
 from nmm.materials.base import History, Law
@@ -201,14 +201,13 @@ class Model(ElasticSolid):
         q = state.deformation
         if self.matter is None:
             return float(q @ product(self.stiffness, q)) / 2
-        return self._stored.of(state)
+        return self._stored(state)
 
-    @cached_property
-    def _stored(self) -> KeptOfStates[float]:
+    @kept_of_object
+    def _stored(self, state: "State") -> float:
         """Energy of the last states, which several reports ask for."""
-        matter = self.matter
-        assert matter is not None
-        return KeptOfStates(lambda state: matter.energy(state.deformation, state.history))
+        assert self.matter is not None
+        return self.matter.energy(state.deformation, state.history)
 
     def dissipated(self, before: "State", after: "State") -> float:
         """Work (J) of the stress in a step less what the material stores of it."""
@@ -224,15 +223,11 @@ class Model(ElasticSolid):
         matter = self.matter
         return matter.swollen(before.history, after.history) if isinstance(matter, Matter) else 0.0
 
+    @kept_of_object
     def internal(self, state: "State") -> Floats:
         """Internal force (n,) of nonlinear material; kept for the last states."""
-        return self._internal.of(state)
-
-    @cached_property
-    def _internal(self) -> KeptOfStates[Floats]:
-        matter = self.matter
-        assert matter is not None
-        return KeptOfStates(lambda state: matter.internal(state.deformation, state.history))
+        assert self.matter is not None
+        return self.matter.internal(state.deformation, state.history)
 
     def missed_work(self, before: "State", after: "State") -> float:
         """Return by how much the mean force of both ends does more work (J) than is stored.

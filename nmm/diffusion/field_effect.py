@@ -13,7 +13,7 @@ from scipy.sparse import csr_array
 
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats, Ints
-from nmm.assembly.kept import KeptOfArray
+from nmm.assembly.kept import forget_kept, kept_of_object
 from nmm.assembly.state import State
 from nmm.diffusion.carried_field import carried_field
 from nmm.diffusion.course import FieldAt, FieldCourse
@@ -151,18 +151,14 @@ class FieldEffect(Effect):
 
     def flux(self, state: State) -> Floats:
         """Mean flux (E, 2) of the elements in global axes."""
-        own = self._own_flux.of(self.here(state.time).unknowns)
+        own = self._own_flux(self.here(state.time).unknowns)
         return state.frames.to_global(self.space.manifold.element_body, own)
 
-    @cached_property
-    def _own_flux(self) -> KeptOfArray[Floats]:
+    @kept_of_object
+    def _own_flux(self, field: Floats) -> Floats:
         """Mean flux (E, 2) of the elements in the axes of their bodies."""
-
-        def made(field: Floats) -> Floats:
-            slopes = np.stack([rows @ field for rows in self._slopes], axis=1)
-            return np.asarray(-np.einsum("eij,ej->ei", self._conductivity, slopes))
-
-        return KeptOfArray(made)
+        slopes = np.stack([rows @ field for rows in self._slopes], axis=1)
+        return np.asarray(-np.einsum("eij,ej->ei", self._conductivity, slopes))
 
     @cached_property
     def _slopes(self) -> tuple[csr_array, csr_array]:
@@ -186,7 +182,7 @@ class FieldEffect(Effect):
 
     def forget(self) -> None:
         self.course.problem.forget()
-        self._own_flux.forget()
+        forget_kept(self)
         if self.stress is not None:
             self.stress.forget()
 

@@ -12,7 +12,7 @@ from scipy.sparse import csr_array
 
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats, Ints
-from nmm.assembly.kept import KeptOfArray
+from nmm.assembly.kept import forget_kept, kept_of_object
 from nmm.assembly.model import Model
 from nmm.diffusion.matrices import element_means, stress_coupling
 
@@ -47,23 +47,15 @@ class FieldStress:
         """(n, n_unknowns) storage by the motion of the blocks: ``coupling`` transposed."""
         return csr_array(self.coupling.T)
 
+    @kept_of_object
     def force(self, unknowns: Floats) -> Floats:
         """Force (n_unknowns,) of a field (n,), in body axes (N)."""
-        return self._force.of(unknowns)
+        return np.asarray(self.coupling @ unknowns)
 
-    @cached_property
-    def _force(self) -> KeptOfArray[Floats]:
-        return KeptOfArray(lambda unknowns: np.asarray(self.coupling @ unknowns))
-
+    @kept_of_object
     def mean(self, unknowns: Floats) -> Floats:
         """Stress (E, 3) in body axes that it adds, mean of the elements (Pa)."""
-        return self._mean.of(unknowns)
-
-    @cached_property
-    def _mean(self) -> KeptOfArray[Floats]:
-        return KeptOfArray(
-            lambda unknowns: np.asarray(-(self._means @ unknowns)[:, None] * self.stress)
-        )
+        return np.asarray(-(self._means @ unknowns)[:, None] * self.stress)
 
     def mean_across(self, unknowns: Floats) -> Floats:
         """Stress across the plane (E,) that it adds, mean of the elements (Pa)."""
@@ -90,8 +82,7 @@ class FieldStress:
     def forget(self) -> None:
         """Drop what is kept for speed."""
         self._kept.clear()
-        for kept in (self._force, self._mean):
-            kept.forget()
+        forget_kept(self)
 
     @cached_property
     def _means(self) -> csr_array:

@@ -19,7 +19,7 @@ from scipy.sparse import csc_array
 from covers.approximation.manifold import Manifold
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Bools, Floats
-from nmm.assembly.kept import KeptOfArray
+from nmm.assembly.kept import forget_kept, kept_of_object
 from nmm.diffusion.edges import Edge, Factor
 from nmm.diffusion.given import GivenField, VolumeSource
 from nmm.effects.loading.load_factor import steadily
@@ -125,12 +125,9 @@ class DiffusionProblem:
 
     def rests(self, unknowns: Floats) -> bool:
         """Whether a field (n,) is stationary: no load, and flows are rounding."""
-        return self.still and self._resting.of(unknowns)
+        return self.still and self._flows_nowhere(unknowns)
 
-    @cached_property
-    def _resting(self) -> KeptOfArray[bool]:
-        return KeptOfArray(self._flows_nowhere)
-
+    @kept_of_object
     def _flows_nowhere(self, unknowns: Floats) -> bool:
         """Whether a field (n,) without loads is uniform; small loads would add up."""
         free = self.free
@@ -192,14 +189,10 @@ class DiffusionProblem:
         given = (np.abs(one.factor(time) * one.load) for one in self.edges)
         return float(sum((np.abs(self._test) @ one for one in given), start=0.0))
 
+    @kept_of_object
     def stored(self, unknowns: Floats) -> float:
         """What these bodies hold beyond a field of zero."""
-        return self._stored.of(unknowns)
-
-    @cached_property
-    def _stored(self) -> KeptOfArray[float]:
-        capacity = self.capacity
-        return KeptOfArray(lambda at: 0.0 if capacity is None else self.total(capacity @ at))
+        return 0.0 if self.capacity is None else self.total(self.capacity @ unknowns)
 
     def total(self, weighed: Floats) -> float:
         """Sum over these bodies of what is weighed (n,) by the functions."""
@@ -213,8 +206,7 @@ class DiffusionProblem:
     def forget(self) -> None:
         """Drop matrices and decompositions."""
         self._systems.clear()
-        self._resting.forget()
-        self._stored.forget()
+        forget_kept(self)
 
     def _solved(self, step: float, force: Floats, time: float) -> Floats:
         """Solve for what is free in the system of a step (s), see `_system`."""

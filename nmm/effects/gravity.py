@@ -6,7 +6,7 @@ from typing import Self
 import numpy as np
 
 from integration.arrays import Floats, Ints
-from nmm.assembly.kept import KeptOfPlaces
+from nmm.assembly.kept import forget_kept, kept_of_place
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup
@@ -24,7 +24,6 @@ class Gravity(Effect):
         self._model = model
         self._acceleration = acceleration
         self._volume = DeadLoad(model, model.density[:, None] * acceleration)
-        self._weights = KeptOfPlaces(self._weight)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -39,8 +38,9 @@ class Gravity(Effect):
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the load vector (n,) of the weight in the axes of the bodies."""
-        return self._weights.of(state)
+        return self._weight(state)
 
+    @kept_of_place
     def _weight(self, state: State) -> Floats:
         body, along_x, along_y = self._unit
         down = state.frames.to_body(*self._everywhere)
@@ -61,7 +61,7 @@ class Gravity(Effect):
 
     def work(self, before: State, after: State) -> float:
         """Work (J) of the weight on the motion of axes and unknowns."""
-        return self._volume.work(before, after, (self._weights.of(before), self._weights.of(after)))
+        return self._volume.work(before, after, (self._weight(before), self._weight(after)))
 
     def forget(self) -> None:
-        self._weights.forget()
+        forget_kept(self)

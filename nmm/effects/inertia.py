@@ -9,7 +9,7 @@ from integration.arrays import Floats
 from integration.contraction import some
 from integration.sparse import csc_array
 from nmm.assembly.applied_forces import AppliedForces
-from nmm.assembly.kept import KeptOfArray, KeptOfStates
+from nmm.assembly.kept import kept_of_object
 from nmm.assembly.model import Model
 from nmm.assembly.moving.spin import SpinOfStep
 from nmm.assembly.state import State
@@ -40,10 +40,6 @@ class Inertia(Effect):
         self._axes_turn = axes_turn
         if model.lumped:  # refused here where it is not positive
             _ = self.mass
-        self._spins = KeptOfStates(self._spin)
-        self._outwards = KeptOfStates(self._centrifugal)
-        self._forces = KeptOfStates(self._force)
-        self._stretches = KeptOfArray(self._stretched)
 
     @cached_property
     def mass(self) -> csc_array:
@@ -57,15 +53,16 @@ class Inertia(Effect):
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the centrifugal force of the rotation at the start of the step."""
-        return self._forces.of(state)
+        return self._force(state)
 
+    @kept_of_object
     def _force(self, state: State) -> Floats:
-        outwards = self._outwards.of(state)
+        outwards = self._centrifugal(state)
         return product(self.mass, outwards) if some(outwards) else outwards
 
     def applied_forces(self, state: State) -> AppliedForces:
         """See `Effect.applied_forces`: with the pull outwards, in axes that turn."""
-        acceleration = state.acceleration - self._outwards.of(state)
+        acceleration = state.acceleration - self._centrifugal(state)
         if not some(acceleration):
             return AppliedForces.of_densities()
         return AppliedForces.of_acceleration(acceleration)
@@ -108,7 +105,7 @@ class Inertia(Effect):
         if not self._axes_turn:
             return 0.0, 0.0
         first, last = self.spin(before), self.spin(after)
-        begun, ended = self._stretches.of(before.deformation), self._stretches.of(after.deformation)
+        begun, ended = self._stretched(before.deformation), self._stretched(after.deformation)
         more = (last - first) * (first + last) * (begun + ended) / 4
         more += (first**2 + last**2) * (ended - begun) / 4
         if used is not None:
@@ -124,9 +121,10 @@ class Inertia(Effect):
         spin = self.spin(state)
         if not (self._axes_turn and some(spin)):
             return None
-        slower = spin * self._stretches.of(state.deformation)
+        slower = spin * self._stretched(state.deformation)
         return spin - slower, slower
 
+    @kept_of_object
     def _stretched(self, deformation: Floats) -> Floats:
         """Return ``2 s / J0`` (B,) of the bodies with a deformation (n,)."""
         manifold = self._model.manifold
@@ -145,6 +143,7 @@ class Inertia(Effect):
         factors = np.divide(stretch, inertia[body], out=np.zeros_like(stretch), where=heavy)
         return inertia, turn, factors
 
+    @kept_of_object
     def _centrifugal(self, state: State) -> Floats:
         """Return ``omega^2 (X - Xc)`` in unknowns (n,); zero in axes that do not turn."""
         spin = self.spin(state)
@@ -152,11 +151,9 @@ class Inertia(Effect):
             return np.zeros(self._model.manifold.n_unknowns)
         return product(self._model.manifold.stretch_modes, spin**2)
 
+    @kept_of_object
     def spin(self, state: State) -> Floats:
         """Return the mean angular velocity (B,) of the bodies (rad/s)."""
-        return self._spins.of(state)
-
-    def _spin(self, state: State) -> Floats:
         return product(self._model.rigid_projection, state.velocity).reshape(-1, 3)[:, 2]
 
     def energy(self, state: State) -> float:

@@ -2,15 +2,15 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
-from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats
-from nmm.assembly.kept import KeptOfArray
+from nmm.assembly.kept import kept_of_object
 from nmm.assembly.laws_at_points import SWELLING
 from nmm.assembly.matter import Matter
 from nmm.assembly.state import State
+from nmm.assembly.weakly import weakly
 from nmm.diffusion.course import FieldCourse
 from nmm.diffusion.field_effect import FieldEffect, course_of
 from nmm.diffusion.from_scene import conductivities, of_elements
@@ -50,7 +50,7 @@ class Heat(FieldEffect):
         if finite and strain is not None:
             from nmm.effects.initial.turning_stress import TurningStress
 
-            self._turned = TurningStress.of(strain.model, self.stress_at)
+            self._turned = TurningStress.of(strain.model, weakly(self.stress_at))
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -149,16 +149,12 @@ class Heat(FieldEffect):
         return {**extremes, **self.amounts(state)}
 
     def _values(self, state: State) -> Floats:
-        return self._at_vertices.of(self.acting(state.time))
+        return self._at_vertices(self.acting(state.time))
 
-    @cached_property
-    def _at_vertices(self) -> KeptOfArray[Floats]:
+    @kept_of_object
+    def _at_vertices(self, rise: Floats) -> Floats:
         """Temperature at the vertices."""
-        return KeptOfArray(lambda rise: self._reference + self.space.vertices @ rise)
-
-    def forget(self) -> None:
-        super().forget()
-        self._at_vertices.forget()
+        return self._reference + self.space.vertices @ rise
 
 
 def _strain(setup: Setup, space: ScalarSpace) -> ThermalStrain | None:

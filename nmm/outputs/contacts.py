@@ -4,7 +4,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from nmm.assembly.kept import KeptOfObject
+from nmm.assembly.kept import kept_of_object
+from nmm.assembly.model import Model
 from nmm.contact.problem.contact_state import ContactState
 from nmm.fracture.growth.faces import CrackFaces
 from nmm.outputs.base import Output, View
@@ -16,9 +17,6 @@ class CrackOpening(Output):
 
     The widest of a step is that of these and of the faces of cracks, with contact or without.
     """
-
-    def __init__(self) -> None:
-        self._faces = KeptOfObject(CrackFaces.of)
 
     def fields(self, view: View) -> Mapping[str, Quantity]:
         contacts = view.contacts
@@ -32,5 +30,9 @@ class CrackOpening(Output):
     def history(self, view: View) -> Mapping[str, float]:
         """Return the widest opening (m)."""
         broken = self.fields(view)["crack_opening"].values.max(initial=0.0)
-        faces = self._faces.of(view.model).widest(view.state).max(initial=0.0)
+        faces = self._faces(view.model).widest(view.state).max(initial=0.0)
         return {"crack_opening": float(max(broken, faces))}
+
+    @kept_of_object
+    def _faces(self, model: Model) -> CrackFaces:
+        return CrackFaces.of(model)

@@ -15,14 +15,13 @@ length are stable.
 """
 
 from collections.abc import Hashable, Sequence
-from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats
-from nmm.assembly.kept import KeptOfArray
+from nmm.assembly.kept import kept_of_object
 from nmm.assembly.state import State
 from nmm.diffusion.course import FieldAt
 from nmm.diffusion.problem import step_between
@@ -141,15 +140,14 @@ class Consolidation(PoreWater):
         What held edges leave open belongs to it, with the ground where it is at ``end``.
         """
         assert self.stress is not None
-        room, units = self._opened.of(state.deformation), self.stress.units
+        room, units = self._opened(state.deformation), self.stress.units
         return sum((one.work(units) for one in self._held(state, end)), start=room)
 
-    @cached_property
-    def _opened(self) -> KeptOfArray[Floats]:
+    @kept_of_object
+    def _opened(self, deformation: Floats) -> Floats:
         """Pore volume (n,) that a deformation opens, without held edges (m3)."""
-        stress = self.stress
-        assert stress is not None
-        return KeptOfArray(lambda deformation: np.asarray(stress.room @ deformation))
+        assert self.stress is not None
+        return np.asarray(self.stress.room @ deformation)
 
 
 def _refuse_uncoupled(setup: Setup) -> None:

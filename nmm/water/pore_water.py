@@ -7,15 +7,16 @@ stresses (Terzaghi 1936; Biot 1941 for ``b``), and a share of it in plane stress
 """
 
 from collections.abc import Mapping
-from functools import cached_property, partial
+from functools import partial
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Bools, Floats, Ints
-from nmm.assembly.kept import KeptOfArray
+from nmm.assembly.kept import kept_of_object
 from nmm.assembly.state import State
+from nmm.assembly.weakly import weakly
 from nmm.diffusion.course import FieldCourse
 from nmm.diffusion.field_effect import FieldEffect, course_of
 from nmm.diffusion.field_stress import FieldStress
@@ -65,7 +66,7 @@ class PoreWater(FieldEffect):
         if finite:
             from nmm.water.pore_stress import PoreStress
 
-            self._turned = PoreStress(stress.model.finite_matter, self.stress_at)
+            self._turned = PoreStress(stress.model.finite_matter, weakly(self.stress_at))
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -98,11 +99,11 @@ class PoreWater(FieldEffect):
 
     def acting(self, time: float) -> Floats:
         """Unknowns (n,) of the pressure (Pa)."""
-        return self._pressure.of(self.here(time).unknowns)
+        return self._pressure(self.here(time).unknowns)
 
-    @cached_property
-    def _pressure(self) -> KeptOfArray[Floats]:
-        return KeptOfArray(lambda head: self._weight * (head - self._ground))
+    @kept_of_object
+    def _pressure(self, head: Floats) -> Floats:
+        return self._weight * (head - self._ground)
 
     def pore_pressure_at(self, elements: Ints, points: Floats, time: float) -> Floats:
         return np.asarray(self.space.values(elements, points) @ self.acting(time))

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from integration.arrays import Floats
-from nmm.assembly.kept import KeptOfPlaces
+from nmm.assembly.kept import forget_kept, kept_of_place
 from nmm.assembly.state import State
 from nmm.constraints.imposition import Imposition
 from nmm.effects.base import Instant
@@ -25,12 +25,11 @@ class KeptJumps:
 
     def __init__(self, ties: Sequence[Imposition]) -> None:
         self.ties, self.still = list(ties), False
-        self._motions = KeptOfPlaces(self._moved)
         self._last: tuple[Motions, Instant, list[Floats]] | None = None
 
     def at(self, state: State, end: Instant) -> list[Floats]:
         """Return the jumps (m, 2) in a state from where the ground is at an instant (m)."""
-        motions, last = self._motions.of(state), self._last
+        motions, last = self._moved(state), self._last
         if last is not None and last[0] is motions and self._alike(last[1], end):
             return last[2]
         pairs = zip(self.ties, motions, strict=True)
@@ -41,12 +40,13 @@ class KeptJumps:
     def forget(self) -> None:
         """Drop what is kept for speed alone."""
         self._last = None
-        self._motions.forget()
+        forget_kept(self)
 
     def _alike(self, one: Instant, other: Instant) -> bool:
         """Whether the ground has the same place at two instants."""
         same = one.load_factor == other.load_factor
         return same and (self.still or one.time == other.time)
 
+    @kept_of_place
     def _moved(self, state: State) -> Motions:
         return [tie.interface.motions(state) for tie in self.ties]

@@ -4,7 +4,7 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from integration.contraction import every, some
-from nmm.assembly.kept import KeptOfPlaces
+from nmm.assembly.kept import forget_kept, kept_of_place
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.contact.candidates.pairs import GLUED, MISSING, Pairs, no_interface
@@ -32,8 +32,6 @@ class Partners:
         The boundary edges as they move with the unknowns.
     welded
         Where both faces of a crack are one; None where faces of one body never meet.
-    surface
-        From a state to its edges (`Surface`); those at the start and at the end of a step are kept.
 
     Parameters
     ----------
@@ -67,8 +65,6 @@ class Partners:
         self._within_bodies, self._face_points = within_bodies, face_points
         self._origin, self._whole_faces = origin, whole_faces
         self._neighbours: NeighbourList | None = None
-        self._surfaces = KeptOfPlaces(self._surface)
-        self.surface = self._surfaces.of
         boundary = model.manifold.boundary
         self._region = model.manifold.element_region[boundary.element]
 
@@ -80,9 +76,11 @@ class Partners:
     def forget(self) -> None:
         """Drop the list of neighbours and the surfaces of states: kept for speed alone."""
         self._neighbours = None
-        self._surfaces.forget()
+        forget_kept(self)
 
-    def _surface(self, state: State) -> Surface:
+    @kept_of_place
+    def surface(self, state: State) -> Surface:
+        """Return the edges in a state; those at the start and at the end of a step are kept."""
         return self.sides.moved(state.frames, state.deformation)
 
     def position(self, contacts: ContactPoints, state: State) -> Floats:

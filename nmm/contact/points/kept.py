@@ -1,41 +1,38 @@
 """What is made of which contacts there are, kept while they stay: springs, limits, patterns."""
 
 from collections.abc import Callable
+from functools import wraps
 from operator import is_
-from typing import Any, Generic, TypeVar
+from typing import Any, TypeVar
 
 from nmm.contact.points.contact_points import ContactPoints
 
+Owner = TypeVar("Owner")
 T = TypeVar("T")
 
 
-class of_pairs(Generic[T]):
+def of_pairs(make: Callable[[Owner, ContactPoints], T]) -> Callable[[Owner, ContactPoints], T]:
     """A method made of the pairs of contact points, their sizes and their bonds alone, and kept.
 
     It is made anew with other arrays of these, told apart by identity: `tracking.continued` hands
-    the same ones on as long as search finds the same pairs.
+    the same ones on as long as search finds the same pairs. The value is in the dictionary of the
+    object whose method it is, as those of `nmm.assembly.kept` are.
     """
+    name = f"kept: {make.__qualname__}"
 
-    def __init__(self, make: Callable[[Any, ContactPoints], T]) -> None:
-        self.make, self.__doc__ = make, make.__doc__
+    @wraps(make)
+    def of(owner: Owner, points: ContactPoints) -> T:
+        now = (
+            *(points.key, points.edge_a, points.edge_b, points.interface),
+            *(points.length, points.spring_factor, points.history["bonded"]),
+        )
+        known: tuple[tuple[Any, ...], T]
+        try:
+            known = owner.__dict__[name]
+        except KeyError:
+            known = (None,) * len(now), None  # type: ignore[assignment]
+        if False in map(is_, known[0], now):
+            known = owner.__dict__[name] = now, make(owner, points)
+        return known[1]
 
-    def __set_name__(self, owner: type, name: str) -> None:
-        self.name = name
-
-    def __get__(self, value: Any, owner: type | None = None) -> Callable[[ContactPoints], T]:
-        if value is None:
-            return self  # type: ignore[return-value]  # of the class: its documentation
-        known: tuple[tuple[Any, ...], T] | None = None
-
-        def of(points: ContactPoints) -> T:
-            nonlocal known
-            now = (
-                *(points.key, points.edge_a, points.edge_b, points.interface),
-                *(points.length, points.spring_factor, points.history["bonded"]),
-            )
-            if known is None or False in map(is_, known[0], now):
-                known = now, self.make(value, points)
-            return known[1]
-
-        value.__dict__[self.name] = of
-        return of
+    return of

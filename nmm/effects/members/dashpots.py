@@ -7,7 +7,7 @@ from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Floats
 from nmm.assembly.applied_forces import AppliedForces, joined
-from nmm.assembly.kept import KeptOfStates
+from nmm.assembly.kept import forget_kept, kept_of_object
 from nmm.assembly.state import State
 from nmm.effects.base import Effect, Setup, Span, StepForce
 from nmm.effects.members.ends import ends_of
@@ -32,7 +32,7 @@ class PointDashpots(Effect):
         self.names, self.links, self.viscosity = names, links, viscosity
         self.external = links.grounded
         self._model = setup.model
-        self._stretch, self._kept = KeptOfStates(links.stretch), KeptMatrix(setup)
+        self._kept = KeptMatrix(setup)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -76,7 +76,7 @@ class PointDashpots(Effect):
         return joined([self.links.first.pushed(pull), self.links.second.pushed(-pull)])
 
     def forget(self) -> None:
-        self._stretch.forget()
+        forget_kept(self)
         self._kept.forget()
 
     def history(self, state: State) -> dict[str, float]:
@@ -96,7 +96,11 @@ class PointDashpots(Effect):
         return {name: force[at : at + 1] for at, name in enumerate(self.names)}
 
     def _elongation(self, before: State, after: State) -> Floats:
-        return self._stretch.of(after) - self._stretch.of(before)
+        return self._stretch(after) - self._stretch(before)
+
+    @kept_of_object
+    def _stretch(self, state: State) -> Floats:
+        return self.links.stretch(state)
 
     def _mean(self, before: State, after: State) -> Floats:
         """Force (m,) of a step (N); zero if it has no duration."""

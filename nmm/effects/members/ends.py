@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -10,7 +9,7 @@ import shapely
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.applied_forces import AppliedForces
-from nmm.assembly.kept import KeptOfPlaces
+from nmm.assembly.kept import kept_of_place
 from nmm.assembly.material_points import MaterialPoints, material_points
 from nmm.assembly.places import NEAR
 from nmm.assembly.state import Frames, State
@@ -58,15 +57,9 @@ class MemberEnds:
     def __len__(self) -> int:
         return len(self.on_block)
 
+    @kept_of_place
     def way(self, state: State) -> Floats:
         """Return the displacements (m, 2) (m)."""
-        return self._ways.of(state)
-
-    @cached_property
-    def _ways(self) -> KeptOfPlaces[Floats]:
-        return KeptOfPlaces(self._way)
-
-    def _way(self, state: State) -> Floats:
         return self.on_block[:, None] * self.points.moved(state.frames, state.deformation)
 
     def pushed(self, force: Floats) -> AppliedForces:

@@ -59,7 +59,7 @@ class Foundations(Linked):
     def history(self, state: State) -> dict[str, float]:
         """Return the resultant (N) on the block of each, and its part across the edge (tension)."""
         members, row = self.members, dict[str, float]()
-        force, along = self._answers.of(state).axial.force, members.links.lines(state).along
+        force, along = self._answer(state).axial.force, members.links.lines(state).along
         for (name, side), of in _sides_of(members).items():  # a handful of foundations
             if side == "across":
                 row[f"{name}:force"] = float(summed(force[of]))

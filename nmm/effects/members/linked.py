@@ -8,7 +8,7 @@ from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.applied_forces import AppliedForces, joined
-from nmm.assembly.kept import KeptOfPlaces, KeptOfStates
+from nmm.assembly.kept import forget_kept, kept, kept_of_object
 from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 from nmm.effects.given.resistance import Resistance
@@ -30,12 +30,6 @@ if TYPE_CHECKING:
 ALIKE = 1e-6
 
 
-class _OfAStep(KeptOfPlaces[ChainAnswer]):
-    """Answers at the start of a step and at two of its iterates."""
-
-    most = 3
-
-
 class Linked(Effect):
     """Members whose axial forces follow from the elongation between their ends."""
 
@@ -46,11 +40,6 @@ class Linked(Effect):
         self.external = members.links.grounded
         self._model = setup.model
         self._offset = np.zeros(len(members.links))
-        # What linear laws answer hangs on the place alone: the end of a step starts the next.
-        linear = members.chains.linear
-        self._answers = _OfAStep(self._answered) if linear else KeptOfStates(self._answered)
-        self._matrices = KeptOfStates(self._stiffness)
-        self._forces = KeptOfStates(self._force)
         self._kept = KeptMatrix(setup)
 
     @property
@@ -63,23 +52,25 @@ class Linked(Effect):
         return not self.members.chains.linear
 
     def force(self, state: State, end: Instant) -> Floats:
-        return self._forces.of(state)
+        return self._force(state)
 
+    @kept_of_object
     def _force(self, state: State) -> Floats:
         links = self.members.links
-        return links.pull(state, links.lines(state), self._answers.of(state).axial.force)
+        return links.pull(state, links.lines(state), self._answer(state).axial.force)
 
     def applied_forces(self, state: State) -> AppliedForces:
         links = self.members.links
-        pull = self._answers.of(state).axial.force[:, None] * links.lines(state).along
+        pull = self._answer(state).axial.force[:, None] * links.lines(state).along
         return joined([links.first.pushed(pull), links.second.pushed(-pull)])
 
     def matrix(self, state: State) -> csc_array:
         """See `Effect.matrix`; the same object while its inputs hardly change (`KeptMatrix`)."""
-        return self._matrices.of(state)
+        return self._stiffness(state)
 
+    @kept_of_object
     def _stiffness(self, state: State) -> csc_array:
-        members, found = self.members, self._answers.of(state)
+        members, found = self.members, self._answer(state)
         if len(found.broken):
             raise SolveError(self._lost(found))
         links, force = members.links, found.axial.force
@@ -94,8 +85,8 @@ class Linked(Effect):
 
     def step_force(self, before: State, after: State, span: Span) -> StepForce:
         members, links, weight = self.members, self.members.links, span.weight
-        start = self._answers.of(before)
-        end = self._answers.of(after) if members.chains.linear else self._answered(after)
+        start = self._answer(before)
+        end = self._answer(after) if members.chains.linear else self._answered(after)
         if len(end.broken):
             raise SolveError(self._lost(end))
         force = weight * end.axial.force
@@ -119,7 +110,7 @@ class Linked(Effect):
 
     def resistance(self, state: State) -> Resistance:
         """See `Effect.resistance`: axial forces, and the bond that brings them in."""
-        members, found = self.members, self._answers.of(state)
+        members, found = self.members, self._answer(state)
         links, chains = members.links, members.chains
         lines, memory = links.lines(state), found.axial.memory
         way = links.stretch(state) - self._offset + chains.opening @ found.slip
@@ -135,7 +126,7 @@ class Linked(Effect):
         )
 
     def energy(self, state: State) -> float:
-        chains, found = self.members.chains, self._answers.of(state)
+        chains, found = self.members.chains, self._answer(state)
         return chains.axial.energy(found.axial.force) + chains.bond.energy(found.bond.force)
 
     def loss(self, before: State, after: State) -> float:
@@ -151,7 +142,7 @@ class Linked(Effect):
     def _ends(self, before: State, after: State) -> "list[tuple[Fibres, Ends]]":
         """Return links and slips, each with forces and memories at both ends of a step."""
         chains = self.members.chains
-        ends = [self._answers.of(one) for one in (before, after)]
+        ends = [self._answer(one) for one in (before, after)]
         pairs = ((chains.axial, [e.axial for e in ends]), (chains.bond, [e.bond for e in ends]))
         return [
             (fibres, ((one.force, two.force), (one.memory, two.memory)))
@@ -160,20 +151,20 @@ class Linked(Effect):
 
     def first_work(self, before: State, after: State) -> float:
         """See `Effect.first_work`: half of the work of the forces at the start."""
-        links, force = self.members.links, self._answers.of(before).axial.force
+        links, force = self.members.links, self._answer(before).axial.force
         way = links.stretch(after) - links.stretch(before)
         return float(force @ way) / 2
 
     def history(self, state: State) -> dict[str, float]:
         """Return the largest axial force (N) and the largest slip (m) of each member."""
-        members, found = self.members, self._answers.of(state)
+        members, found = self.members, self._answer(state)
         row = _largest(members.names, members.owner, found.axial.force, "force")
         if len(found.slip):
             row |= _largest(members.names, members.slip_owner, found.slip, "slip")
         return row
 
     def segments(self, state: State) -> MemberSegments:
-        members, found = self.members, self._answers.of(state)
+        members, found = self.members, self._answer(state)
         slip = np.append(found.slip, 0.0)  # -1 is a fixed end
         mean = (slip[members.chains.left] + slip[members.chains.right]) / 2
         place = members.links.place(state)
@@ -193,9 +184,7 @@ class Linked(Effect):
         self.forget()
 
     def forget(self) -> None:
-        self._answers.forget()
-        self._matrices.forget()
-        self._forces.forget()
+        forget_kept(self)
         self._kept.forget()
 
     def follow(self, change: "Change") -> Self:
@@ -215,6 +204,17 @@ class Linked(Effect):
         whole = np.zeros((sum(self.members.places), WIDTH))
         whole[self.members.of_link, 0] = self._offset
         return self.members.remembered(whole)
+
+    def _told_by(self, state: State) -> tuple[int, ...]:
+        """Tell answers apart: of linear laws by the place, as the end of a step starts the next."""
+        if self.members.chains.linear:
+            return id(state.frames), id(state.deformation)
+        return (id(state),)
+
+    @kept(_told_by, most=3)
+    def _answer(self, state: State) -> ChainAnswer:
+        """Return the answer at the start of a step, or at one of two of its iterates."""
+        return self._answered(state)
 
     def _answered(self, state: State) -> ChainAnswer:
         members = self.members

@@ -14,7 +14,7 @@ from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Floats, Ints
 from integration.plane_vectors import counterclockwise, cross
-from nmm.assembly.kept import KeptOfPlaces
+from nmm.assembly.kept import kept_of_place
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
 from nmm.effects.members.ends import MemberEnds
@@ -98,13 +98,10 @@ class Links:
         """Whether any end is on the ground."""
         return bool((self.first.on_block * self.second.on_block == 0).any())
 
+    @kept_of_place
     def way(self, state: State) -> Floats:
         """Return the displacement of second ends relative to first ones (m, 2) (m)."""
-        return self._ways.of(state)
-
-    @cached_property
-    def _ways(self) -> KeptOfPlaces[Floats]:
-        return KeptOfPlaces(lambda state: self.second.way(state) - self.first.way(state))
+        return self.second.way(state) - self.first.way(state)
 
     def place(self, state: State) -> Floats:
         """Return the present places of both ends (m, 2, 2) (m)."""

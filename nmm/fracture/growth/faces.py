@@ -2,13 +2,12 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
 from integration.arrays import Floats, Ints
 from integration.plane_vectors import cross
-from nmm.assembly.kept import KeptOfPlaces
+from nmm.assembly.kept import kept_of_place
 from nmm.assembly.material_points import MaterialPoints, material_points
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
@@ -74,18 +73,15 @@ class CrackFaces:
 
         Opening and sliding are those at the middles of the faces; open is positive.
         """
-        ends, opening, sliding = self._ends.of(state)
+        ends, opening, sliding = self._ends(state)
         return ends.reshape(-1, 4), opening.mean(axis=1), sliding.mean(axis=1)
 
     def widest(self, state: State) -> Floats:
         """Return the opening (m,) of the faces at the end where each is wider (m)."""
-        return np.asarray(self._ends.of(state)[1].max(axis=1))
+        return np.asarray(self._ends(state)[1].max(axis=1))
 
-    @cached_property
-    def _ends(self) -> KeptOfPlaces[tuple[Floats, Floats, Floats]]:
-        return KeptOfPlaces(self._at_ends)
-
-    def _at_ends(self, state: State) -> tuple[Floats, Floats, Floats]:
+    @kept_of_place
+    def _ends(self, state: State) -> tuple[Floats, Floats, Floats]:
         """Return middles (m, 2, 2), openings (m, 2) and ways along (m, 2) of the ends (m)."""
         one, two = self._flanks(state, state.deformation)
         # In small strain faces do not turn with the strain, however large it is.

@@ -14,6 +14,7 @@ import numpy as np
 from integration.arrays import Floats
 from integration.sparse import csc_array, csr_array
 from nmm.assembly.state import State
+from nmm.assembly.weakly import weakly
 from nmm.effects.base import Effect, Instant, Span, StepForce, defines
 from nmm.model.planning.forces import ForcePlan
 from nmm.quantity import MemberSegments
@@ -40,19 +41,26 @@ class Plan(ForcePlan):
         return Plan({**self.effects, effect.name: effect})
 
     def connected(self) -> "Plan":
-        """Connect effects to the stresses and forces of others; return the plan itself."""
+        """Connect effects to the stresses and forces of others; return the plan itself.
+
+        They hold one another weakly, and the plan holds all of them.
+        """
         self.hooks.clear()
         for effect in self.having("receive_forces"):
-            effect.receive_forces([other.applied_forces for other in self.having("applied_forces")])
-        pores = [effect.pore_pressure_at for effect in self.having("pore_pressure_at")]
-        for effect in self.having("receive_pore_pressures") if pores else ():
-            effect.receive_pore_pressures(pores)
-        if self.stresses:
+            effect.receive_forces(self._handed("applied_forces"))
+        if pores := self._handed("pore_pressure_at"):
+            for effect in self.having("receive_pore_pressures"):
+                effect.receive_pore_pressures(pores)
+        if stresses := self._handed("stress_at"):
             for effect in self.having("receive_stresses"):
-                effect.receive_stresses(self.stresses)
+                effect.receive_stresses(stresses)
         for effect in self.having("receive_held_edges"):
-            effect.receive_held_edges([other.held_edges for other in self.having("held_edges")])
+            effect.receive_held_edges(self._handed("held_edges"))
         return self
+
+    def _handed(self, hook: str) -> list[Any]:
+        """Return a hook of the effects that define it, for other effects."""
+        return [weakly(getattr(effect, hook)) for effect in self.having(hook)]
 
     def begin(self, state: State) -> State:
         """Return the state at the start of the run."""

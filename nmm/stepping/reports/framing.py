@@ -1,11 +1,12 @@
 """An accepted state as it is handed over: as a view for those who read it, as a frame to store."""
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from integration.arrays import Floats, columns
-from nmm.assembly.kept import KeptOfObject
+from nmm.assembly.kept import kept_of_object
 from nmm.assembly.state import State
 from nmm.effects.view import View
 from nmm.model.planning.across import stress_across
@@ -22,14 +23,33 @@ if TYPE_CHECKING:
 
 def viewed(stepper: Stepper, state: State, contacts: "ContactPoints | None") -> View:
     """Return a state with what can be read from it; stress is computed when it is requested."""
-    own = KeptOfObject[State, Floats](lambda state: _own(stepper, state))
-    return View(
-        stepper.model,
-        state,
-        contacts,
-        lambda state: _stress(stepper, state, own.of(state)),
-        lambda state: stress_across(stepper.plan, stepper.model, state, own.of(state)),
-    )
+    stresses = _Stresses(stepper)
+    return View(stepper.model, state, contacts, stresses.whole, stresses.across)
+
+
+@dataclass(frozen=True)
+class _Stresses:
+    """Mean stresses of the elements."""
+
+    stepper: Stepper
+
+    @kept_of_object
+    def of_strain(self, state: State) -> Floats:
+        """Return those (E, 3) by their strain, in body axes (Pa)."""
+        model = self.stepper.model
+        return model.stress(state, patch_pressures(self.stepper.plan, model, state))
+
+    def whole(self, state: State) -> Floats:
+        """Return Cauchy stresses (E, 3) in global axes, with what effects add (Pa)."""
+        stress, added = self.of_strain(state), self.stepper.plan.added_stress(state)
+        if added is not None:
+            stress = stress + added
+        return _turned(stress, state.frames.angle[self.stepper.model.manifold.element_body])
+
+    def across(self, state: State) -> Floats | None:
+        """Return those across the plane (E,) (Pa); None in plane stress."""
+        stepper = self.stepper
+        return stress_across(stepper.plan, stepper.model, state, self.of_strain(state))
 
 
 def framed(
@@ -56,20 +76,6 @@ def framed(
         **_contact_arrays(stepper, view),
         fields=_across_field(view) | declared.fields(stepper.plan, view),
     )
-
-
-def _own(stepper: Stepper, state: State) -> Floats:
-    """Return the mean stress (E, 3) of the elements by their strain, in body axes (Pa)."""
-    model = stepper.model
-    return model.stress(state, patch_pressures(stepper.plan, model, state))
-
-
-def _stress(stepper: Stepper, state: State, stress: Floats) -> Floats:
-    """Return the mean Cauchy stress (E, 3) of the elements in global axes, by their own (Pa)."""
-    added = stepper.plan.added_stress(state)
-    if added is not None:
-        stress = stress + added
-    return _turned(stress, state.frames.angle[stepper.model.manifold.element_body])
 
 
 def _across_field(view: View) -> dict[str, Quantity]:

@@ -7,7 +7,7 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats, Ints
 from integration.contraction import contract, largest
-from nmm.assembly.kept import KeptOfPlaces
+from nmm.assembly.kept import forget_kept, kept_of_place
 from nmm.assembly.material_points import vertex_points
 from nmm.assembly.model import Model
 from nmm.assembly.moving.kinematics import Kinematics
@@ -60,12 +60,12 @@ class Mover:
 
     def _follow(self, model: Model) -> None:
         self.vertices = vertex_points(model.manifold)
-        self._places = KeptOfPlaces(self._placed)
+        forget_kept(self)
 
     def forget(self) -> None:
         """Drop what is kept for speed alone."""
         self._masses = None
-        self._places.forget()
+        forget_kept(self)
 
     def after(self, equations: Equations, increment: Floats, push: Floats | None = None) -> Attempt:
         """Move by ``increment``; ``push`` (n,) is the contact force if its acceleration counts."""
@@ -77,11 +77,9 @@ class Mover:
             motion = float(np.sqrt(largest(contract("ij,ij->i", way, way))))
         return Attempt(True, "converged", moved, increment, motion, 0.0, 1)
 
+    @kept_of_place
     def place(self, state: State) -> Floats:
         """Return where the elements' vertices are (P, 2)."""
-        return self._places.of(state)
-
-    def _placed(self, state: State) -> Floats:
         contact = self.current.plan.contact
         if contact is not None and contact.partners.sides.whole:
             # The same points, which contact is requested too.

@@ -11,7 +11,7 @@ from typing import Self
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.assembly.kept import Kept, KeptOfInstants, KeptOfPlaces
+from nmm.assembly.kept import forget_kept, kept, kept_of_place, place_and_time
 from nmm.assembly.state import State
 from nmm.constraints.ties.shared_edges import shared_edges
 from nmm.diffusion.edges import Factor
@@ -64,11 +64,7 @@ class JointWater(Effect):
         self.sites, self.network, self.prescribed = sites, network, prescribed
         self._initial, self._residual = aperture
         self.weight, self.n_unknowns = weight, n_unknowns
-        self._openings = KeptOfPlaces(sites.opening)
         self._courses_rest = all(one.factor is steadily for one in prescribed)
-        self._given = Kept(self._given_at, lambda time: 0.0 if self._courses_rest else time)
-        self._heads = KeptOfInstants(self._steady_heads)
-        self._face_forces = KeptOfInstants(self._forces_of_pressure)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -101,13 +97,17 @@ class JointWater(Effect):
 
     def apertures(self, state: State) -> Floats:
         """Apertures (j, 2) at the ends of the joints (m)."""
-        opening = self._openings.of(state)
-        return np.maximum(self._initial[:, None] + opening, self._residual[:, None])
+        return np.maximum(self._initial[:, None] + self._opening(state), self._residual[:, None])
+
+    @kept_of_place
+    def _opening(self, state: State) -> Floats:
+        return self.sites.opening(state)
 
     def heads(self, state: State, time: float) -> Floats:
         """Heads (n,) of the nodes with the apertures of a state (m); nan where no joint is open."""
-        return self._heads.of(state, 0.0 if self.steady else time)
+        return self._steady_heads(state, 0.0 if self.steady else time)
 
+    @kept(place_and_time)
     def _steady_heads(self, state: State, time: float) -> Floats:
         nodes, given = self.given(time)
         conductance = self.network.conductance(self.apertures(state))
@@ -155,8 +155,9 @@ class JointWater(Effect):
 
     def given(self, time: float) -> tuple[Ints, Floats]:
         """Nodes (k,) with a prescribed head, and the heads (k,) (m); later tables count."""
-        return self._given.of(time)
+        return self._given_at(0.0 if self._courses_rest else time)
 
+    @kept(lambda water, time: time)
     def _given_at(self, time: float) -> tuple[Ints, Floats]:
         heads = np.full(self.network.n, np.nan)
         for one in self.prescribed:  # a handful
@@ -165,13 +166,13 @@ class JointWater(Effect):
         return nodes, heads[nodes]
 
     def forget(self) -> None:
-        for kept in (self._openings, self._heads, self._face_forces):
-            kept.forget()
+        forget_kept(self)
 
     def _forces(self, state: State, time: float) -> Floats:
         """Forces (m, 2) on the first sides of the joints (N)."""
-        return self._face_forces.of(state, 0.0 if self.steady else time)
+        return self._forces_of_pressure(state, 0.0 if self.steady else time)
 
+    @kept(place_and_time)
     def _forces_of_pressure(self, state: State, time: float) -> Floats:
         pressure = self.pressures(state, time)
         if not pressure.any():

@@ -19,7 +19,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.assembly.kept import Kept, KeptOfPlaces
+from nmm.assembly.kept import kept, kept_of_place
 from nmm.assembly.state import State
 from nmm.diffusion.problem import step_between
 from nmm.effects.base import Instant, Setup, Span, StepForce
@@ -37,11 +37,9 @@ class JointStorage(JointWater):
     _began: WaterStored
     _end: WaterStored
     _balance: JointBalance
-    _open: KeptOfPlaces[OpenJoints]
     _start: OpenJoints | None = None
     _last: SolvedWater | None = None
     _second, _time = 1.0, 0.0
-    _water: Kept[[State, float], WaterStored]
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -55,12 +53,10 @@ class JointStorage(JointWater):
         level, thick = found.sites.places[:, 1], setup.model.thickness
         squeeze = found.weight / table.bulk_modulus
         found._balance = JointBalance(found.network, level, found._initial, thick, squeeze)
-        found._open = KeptOfPlaces(found._opened)
-        found._water = Kept(found._at_volumes_of, found._step_to)
         found._second = 1.0 if table.duration is None else table.duration
         head = np.full(found.network.n, table.initial - setup.origin[1])
         begin = setup.start.time * found._second
-        found._began = WaterStored(begin, head, found._open.of(setup.start).volume)
+        found._began = WaterStored(begin, head, found._open(setup.start).volume)
         found._end = found._began
         return found
 
@@ -74,7 +70,7 @@ class JointStorage(JointWater):
         time = time * self._second
         if time == self._began.time:
             return self._began.head
-        return self._end.head if time == self._end.time else self._water.of(state, time).head
+        return self._end.head if time == self._end.time else self._water(state, time).head
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the force (n_unknowns,) of the pressure at the end of a step without motion."""
@@ -83,12 +79,12 @@ class JointStorage(JointWater):
         time = end.time * self._second
         if time == self._began.time:  # the force at the start of the step, whose duration stays
             return super().force(state, end)
-        self._time, self._start = time, self._open.of(state)
-        return self._push(state, self._pressure(self._water.of(state, time).head))
+        self._time, self._start = time, self._open(state)
+        return self._push(state, self._pressure(self._water(state, time).head))
 
     def matrix(self, state: State) -> csc_array:
         """Return minus the derivative of the pressure's force by the motion (n, n)."""
-        return self._relief(state, self._water.of(state, self._time))
+        return self._relief(state, self._water(state, self._time))
 
     @property
     def symmetric(self) -> bool:
@@ -102,8 +98,8 @@ class JointStorage(JointWater):
         that opens gets no more work than it gave as it closed.
         """
         volume, time = self._balance.volumes(super().apertures(after)), after.time * self._second
-        end = self._solved(self._open.of(before), volume, time)
-        last, still = (self._pressure(one.head) for one in (end, self._water.of(before, time)))
+        end = self._solved(self._open(before), volume, time)
+        last, still = (self._pressure(one.head) for one in (end, self._water(before, time)))
         fallen = np.maximum(still - last, 0.0)
         first = np.maximum(self._pressure(self._began.head) - fallen, 0.0)
         weight, both = span.weight, (fallen > 0) & (first > 0)
@@ -118,7 +114,7 @@ class JointStorage(JointWater):
         """See `Effect.accepted`: the heads that acted at the end of the step."""
         time = state.time * self._second
         if time > self._began.time:
-            self._end = self._water.of(state, time)
+            self._end = self._water(state, time)
 
     def history(self, state: State) -> Mapping[str, float]:
         """Return the largest pressure (Pa) and aperture (m), inflows and what is stored (m3)."""
@@ -133,16 +129,13 @@ class JointStorage(JointWater):
 
     def carry(self, carried: Any) -> None:
         self._began, self._end = (WaterStored(*one) for one in carried)
-        self._water.forget()
-        self._last = None
+        self.forget()
 
     def apertures(self, state: State) -> Floats:
-        return self._open.of(state).aperture
+        return self._open(state).aperture
 
     def forget(self) -> None:
         super().forget()
-        self._open.forget()
-        self._water.forget()
         self._last = None
 
     def follow(self, change: Change) -> "JointStorage":
@@ -154,7 +147,7 @@ class JointStorage(JointWater):
         known = near <= 1e-9 * (1 + np.abs(self.sites.places).max())
         old = self._end
         head = np.where(known, old.head[nearest], new._began.head)
-        volume = new._open.of(change.state).volume
+        volume = new._open(change.state).volume
         new._began = new._end = WaterStored(old.time, head, volume, old.taken, old.stored)
         return new
 
@@ -182,7 +175,7 @@ class JointStorage(JointWater):
         # Neither from heads nor for them does it matter how much an empty node could hold.
         moved = wet if share is None else free & ~self._balance.dry(end.head, end.volume)
         step = step_between(self._began.time, end.time)
-        matrix = self._balance.matrix(self._open.of(state), end.head, end.volume, step)
+        matrix = self._balance.matrix(self._open(state), end.head, end.volume, step)
         coupling = self._coupling(state)
         used = np.flatnonzero(np.abs(coupling[moved]).any(axis=0))
         some = np.where(moved[:, None], coupling[:, used], 0.0)
@@ -196,14 +189,15 @@ class JointStorage(JointWater):
         """The matrix without entries, one for all steps: sums with it are kept."""
         return csc_array((self.n_unknowns, self.n_unknowns))
 
-    def _at_volumes_of(self, state: State, time: float) -> WaterStored:
-        """Return the water at a time with the volumes of a state."""
-        now = self._open.of(state)
-        return self._solved(self._start or now, now.volume, time)
-
     def _step_to(self, state: State, time: float) -> tuple[int, int, float]:
         """What tells the water of a step from that of another."""
         return id(state), id(self._began), time
+
+    @kept(_step_to)
+    def _water(self, state: State, time: float) -> WaterStored:
+        """Return the water at a time with the volumes of a state."""
+        now = self._open(state)
+        return self._solved(self._start or now, now.volume, time)
 
     def _solved(self, joints: OpenJoints, volume: Floats, time: float) -> WaterStored:
         """Return the water at a time with volumes (n,), by the joints at the start of the step."""
@@ -229,7 +223,8 @@ class JointStorage(JointWater):
         )
         return WaterStored(time, head, volume, taken, began.stored + last - first)
 
-    def _opened(self, state: State) -> OpenJoints:
+    @kept_of_place
+    def _open(self, state: State) -> OpenJoints:
         return self._balance.opened(super().apertures(state))
 
     def _coupling(self, state: State) -> Floats:
