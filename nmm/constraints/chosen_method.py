@@ -8,7 +8,6 @@ from nmm.errors import FormulationError
 
 if TYPE_CHECKING:
     from nmm.formulation import SupportMethod
-    from nmm.scene.model import Scene
 
 
 def chosen(model: Model, asked: str, springs: str) -> str:
@@ -28,34 +27,25 @@ def support_method(
     part: "SupportMethod",
     size: float | None,
     degree: int,
-    scene: "Scene | None" = None,
+    only_strained: bool = False,
 ) -> Method:
     """Return the method that a formulation names; "auto" is springs for blocks.
 
-    Edges of finite strain are held by Nitsche's method where it knows their traction
-    (`_only_strained`), as of a ``scene``, else by springs.
+    Edges of finite strain are held by Nitsche's method where it knows their traction, as that is
+    of the strain alone (`Setup.only_strained`), else by springs.
     """
-    at_rest = model.finite and scene is not None and _only_strained(scene)
     blocks = size is None and part.method == "auto"
-    springs = "nitsche" if at_rest else "penalty"
+    springs = "nitsche" if model.finite and only_strained else "penalty"
     kind = "penalty" if blocks else chosen(model, part.method, springs)
     if size is None and IMPOSITIONS.load(kind).needs_cells:
         raise FormulationError(
             f'[supports] method: "{kind}": for covers of meshes: expected "penalty" with type = '
             '"block": change the method or the cover'
         )
-    if model.finite and kind == "nitsche" and not at_rest:
+    if model.finite and kind == "nitsche" and not only_strained:
         raise FormulationError(
             f'[supports] method: "nitsche": with {model.bent} its traction is that of the strain '
             "in statics: expected no inertia, contact, stages, stress at the start, heat, water or "
-            'effects of one\'s own beside it: use method = "lagrange" or "penalty"'
+            'effects of one\'s own that add stress: use method = "lagrange" or "penalty"'
         )
     return Method(kind, size, degree, part.stiffness, part.gamma, part.ghost)
-
-
-def _only_strained(scene: "Scene") -> bool:
-    """Whether the stress is that of the strain alone, in statics without contact."""
-    moves = scene.inertia, scene.contact, scene.stages
-    stressed = scene.initial_stresses, scene.heat, scene.temperatures
-    wet = scene.seepage, scene.heads, scene.water_pressures
-    return not any((*moves, *stressed, *wet, scene.effects))

@@ -61,7 +61,7 @@ class Supports(TiedInterfaces):
         scene, cover = setup.scene, setup.formulation.cover
         size = cover.finest if setup.model.manifold.shared_covers else None
         part = setup.formulation.supports
-        method = support_method(setup.model, part, size, highest_degree(cover), scene)
+        method = support_method(setup.model, part, size, highest_degree(cover), setup.only_strained)
         interfaces = [declared(setup, support, method) for support in scene.supports]
         edges = [i for i, one in enumerate(interfaces) if one.first.normal is not None]
         # At points that are no edge springs, which need no traction.

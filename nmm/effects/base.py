@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     from nmm.effects.change import Change
 
 
+# Hooks by which an effect adds to the stress.
+STRESSES = ("mean_stress", "stress_at")
+
+
 class Effect(ForceHooks, EnergyHooks, ExchangeHooks, ReportHooks, CourseHooks, ABC):
     """Base of effects: override the hooks that the effect has; the others are never called.
 
@@ -67,6 +71,14 @@ class Effect(ForceHooks, EnergyHooks, ExchangeHooks, ReportHooks, CourseHooks, A
         So it is where a dynamic stage follows a static one, or the other way round.
         """
         return cls.from_setup(change.setup)
+
+    @classmethod
+    def beyond_strain(cls) -> bool:
+        """Whether with it tractions at held edges are not those of the strain in statics alone.
+
+        Nitsche's terms of finite strain know no others. By default it is what adds a stress.
+        """
+        return any(getattr(cls, hook) is not getattr(Effect, hook) for hook in STRESSES)
 
     @property
     def resolves(self) -> float | None:

@@ -27,6 +27,11 @@ class Contact(ModelContact, Effect):
     _ground: "StressIn | None" = None
 
     @classmethod
+    def beyond_strain(cls) -> bool:
+        """See `Effect.beyond_strain`: faces press on each other."""
+        return True
+
+    @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         found = cls(setup.model, contact_parts(setup), setup.start)
         found._ground = stress_of_ground(setup)

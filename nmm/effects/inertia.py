@@ -41,6 +41,11 @@ class Inertia(Effect):
         if model.lumped:  # refused here where it is not positive
             _ = self.mass
 
+    @classmethod
+    def beyond_strain(cls) -> bool:
+        """See `Effect.beyond_strain`: it accelerates what edges hold."""
+        return True
+
     @cached_property
     def mass(self) -> csc_array:
         """Mass (n, n) of the unknowns (kg)."""

@@ -52,6 +52,11 @@ class UnreleasedForces(Effect):
         )
 
     @classmethod
+    def beyond_strain(cls) -> bool:
+        """See `Effect.beyond_strain`: it pushes faces that a support may hold."""
+        return True
+
+    @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """Return no forces: nothing has been excavated yet."""
         return cls(setup)

@@ -80,6 +80,11 @@ class WaterPressures(Effect):
         self._surfaces = _pressed(surfaces, self._n) if surfaces else None
 
     @classmethod
+    def beyond_strain(cls) -> bool:
+        """See `Effect.beyond_strain`: water presses on faces."""
+        return True
+
+    @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """Build from the ``[[water_pressures]]``."""
         found = [_water(setup, item) for item in setup.scene.water_pressures]

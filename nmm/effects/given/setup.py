@@ -77,6 +77,9 @@ class Setup:
         How loads act in a stage; None in scenes without stages.
     kinematics
         Kinematics of bodies: small, corotational or finite.
+    only_strained
+        Whether tractions at held edges are those of the strain alone, in statics, for certain: no
+        effect of the scene changes them (`Effect.beyond_strain`).
     table
         The table ``[effects.NAME]`` of an effect of one's own, an `Effect.Table` in the axes of the
         model; None for built-in effects.
@@ -93,6 +96,7 @@ class Setup:
     table: Any = None
     acting: StageLoads | None = None
     kinematics: Kinematics = COROTATIONAL
+    only_strained: bool = False
 
     @property
     def small(self) -> bool:

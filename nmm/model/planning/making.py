@@ -12,7 +12,7 @@ from nmm.effects.base import Effect, Setup, defines
 from nmm.errors import Fault, FormulationError
 from nmm.geometry.tessellation.cover_types import piece_glue
 from nmm.model.called_for import called_for
-from nmm.model.effects_table import EFFECTS, GLUE, OWN, make_own, with_table
+from nmm.model.effects_table import EFFECTS, GLUE, OWN, make_own, own_effect, with_table
 from nmm.model.planning.out_of_balance import out_of_balance
 from nmm.model.planning.plan import Plan
 
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 def compile_plan(setup: Setup) -> Plan:
     """Import and build the effects that a scene names, with keys of its own or in tables."""
-    plan = Plan({})
-    for name, make in _makers(setup, _kinds(setup)).items():
+    kinds, plan = _kinds(setup), Plan({})
+    for name, make in _makers(_told(setup, kinds), kinds).items():
         plan.effects[name] = plan.timed(name, make)
     if setup.kinematics.finite:
         _check_finite(plan)
@@ -56,6 +56,7 @@ def _check_finite(plan: Plan) -> None:
 def plan_after(plan: Plan, change: "Change") -> Plan:
     """Return the plan on the new model: effects follow, and those newly named are built."""
     kinds = _kinds(change.setup)
+    change = replace(change, setup=_told(change.setup, kinds))
     makers = _makers(change.setup, kinds)
     for name, effect in plan.effects.items():
         if effect.stays or name in makers:
@@ -89,6 +90,13 @@ def _kinds(setup: Setup) -> dict[str, type[Effect]]:
     if piece_glue(setup.formulation.cover) is not None:
         kinds.append(EFFECTS.load(GLUE))
     return {kind.name: kind for kind in kinds}
+
+
+def _told(setup: Setup, kinds: dict[str, type[Effect]]) -> Setup:
+    """Return what effects are built from, told of what all of them do to tractions at edges."""
+    own = [own_effect(setup.scene, name)[0] for name in setup.scene.effects]
+    beyond = any(kind.beyond_strain() for kind in (*kinds.values(), *own))
+    return replace(setup, only_strained=not beyond)
 
 
 def _makers(setup: Setup, kinds: dict[str, type[Effect]]) -> dict[str, Callable[[], Effect]]:

@@ -38,18 +38,22 @@ def formulation(cover, size, more=""):
     )
 
 
-def stretched(law="elastic"):
+def stretched_text(law="elastic"):
     """A square that is held all around where an even stretch takes its edges."""
     sides = [
         text.fixed_edge(f"side {n}", [start, SQUARE[n - 3]]) + 'field = ["0.4*x", "-0.2*y"]\n'
         for n, start in enumerate(SQUARE)
     ]
-    return parse_scene(
+    return (
         'title = "Square"\nplane = "strain"\n[loading]\nuntil = 1.0\n[materials.m]\n'
         f'law = "{law}"\nyoung_modulus = 1.0\npoisson_ratio = 0.3\ndensity = 1.0\n'
         + text.block("square", "m", SQUARE)
         + "".join(sides)
     )
+
+
+def stretched(law="elastic"):
+    return parse_scene(stretched_text(law))
 
 
 @pytest.mark.parametrize("law", STRESS)
@@ -80,6 +84,58 @@ def test_nitsches_method_is_refused_in_time_where_it_keeps_no_energy():
     )
     with pytest.raises(FormulationError, match=r'method: "nitsche".*no inertia, contact'):
         nmm.run(scene, formulation("quads", 0.5, '[supports]\nmethod = "nitsche"\n'))
+
+
+EFFECTS = """
+import numpy as np
+
+from nmm.effects.base import Effect
+
+
+class Idle(Effect):
+    # What pushes nothing, as a load of zero.
+
+    @classmethod
+    def from_setup(cls, setup):
+        return cls()
+
+    def force(self, state, end):
+        return np.zeros(len(state.deformation))
+
+    def work(self, before, after):
+        return 0.0
+
+
+class Stressed(Idle):
+    # What adds a stress, of zero.
+
+    def stress_at(self, elements, points, time):
+        return np.zeros((len(elements), 3))
+
+
+class Known(Stressed):
+    # What says that edges need not know of it.
+
+    @classmethod
+    def beyond_strain(cls):
+        return False
+"""
+
+
+@pytest.mark.parametrize(
+    ("kind", "held"), [("Idle", True), ("Stressed", False), ("Known", True)], ids=str
+)
+def test_edges_know_their_traction_beside_an_effect_of_ones_own_that_adds_no_stress(
+    kind, held, tmp_path
+):
+    module, place = f"beside_edges_{kind.lower()}", tmp_path / "scene.toml"
+    (tmp_path / f"{module}.py").write_text(EFFECTS)
+    place.write_text(f'{stretched_text()}[effects.own]\ntype = "{module}:{kind}"\n')
+    found = nmm.run(nmm.read_scene(place), formulation("triangles", 0.5), allow_code=[module])
+    off = np.abs(found.stress - [*STRESS["elastic"], 0.0]).max()
+    # Springs, which need no traction, leave 0.8 to 4 %.
+    assert (off < 1e-10 * np.abs(STRESS["elastic"]).max()) == held
+    assert found.summary.status == "converged"
 
 
 def ring(law, pressure, sides=32):
