@@ -8,6 +8,7 @@ import numpy as np
 from nmm.errors import NmmError
 from nmm.scene import Scene
 from nmm.study.cases.record import Record
+from nmm.study.cases.variants import SIZE
 from nmm.study.cost.orders import Extrapolated, richardson
 
 UNSETTLED = 10.0
@@ -60,7 +61,8 @@ def stated_reference(scene: Scene, name: str | None) -> Reference | None:
 def sizes_of(records: Sequence[Record]) -> list[float]:
     """Return the size that error falls with (`size_name`); 1 where none differs.
 
-    In two dimensions the size of what carries an unknown falls with the root of their number.
+    In two dimensions the size of what carries an unknown falls with the root of their number, but
+    of few there are more along edges: 2 (n + 1)^2 on a square.
     """
     name = size_name(records)
     if name == UNKNOWNS:
@@ -71,16 +73,21 @@ def sizes_of(records: Sequence[Record]) -> list[float]:
 def size_name(records: Sequence[Record]) -> str:
     """Return the name of the size that differs among records; "" where none does.
 
-    Where all have the same number of unknowns, it is the first setting (a step, an increment, a
-    tolerance) that differs and is a positive number.
+    It is that of covers where no other setting differs. Where all have the same number of unknowns,
+    it is the first setting (a step, an increment, a tolerance) that differs and is a positive
+    number.
     """
+    differs = [
+        key
+        for key in dict.fromkeys(key for one in records for key in one.settings)
+        if any(one.settings.get(key) != records[0].settings.get(key) for one in records)
+    ]
+    sizes = [key for key in differs if all(_number(one.settings.get(key)) > 0 for one in records)]
+    if differs == sizes == [SIZE]:
+        return SIZE
     if len({one.unknowns for one in records}) > 1:
         return UNKNOWNS
-    for key in dict.fromkeys(key for one in records for key in one.settings):
-        values = [_number(one.settings.get(key)) for one in records]
-        if len(set(values)) > 1 and all(value > 0 for value in values):
-            return key
-    return ""
+    return sizes[0] if sizes else ""
 
 
 def extrapolated_reference(records: Sequence[Record], name: str) -> Reference:

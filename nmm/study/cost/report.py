@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from nmm.study.cases.record import Record, finest
+from nmm.study.cases.variants import SIZE
 from nmm.study.cost.cost_study import CostStudy, write_records
 from nmm.study.cost.figure import draw
 from nmm.study.cost.levels import level_table
@@ -13,6 +14,8 @@ from nmm.study.cost.orders import Order, observed_order
 from nmm.study.cost.reference import UNKNOWNS, size_name, sizes_of
 from nmm.study.cost.theory import order_in_size, order_in_step
 
+# Relative errors up to this one are rounding, and fall with nothing.
+ROUNDING_ERROR = 1e-12
 # Wall over processor seconds above which something else took the processor.
 DISTURBED = 1.3
 
@@ -83,12 +86,15 @@ def _row(study: CostStudy, one: Record, best: bool) -> str:
 
 
 def _orders(study: CostStudy) -> list[str]:
-    """Observed orders with their confidence, from errors above the reference's uncertainty."""
+    """Observed orders with their confidence, of errors above rounding and the uncertainty."""
     lines = []
-    floor = study.floor
+    exact = ROUNDING_ERROR if study.reference.value else 0.0
     for name, many in study.by_formulation().items():
-        used = [one for one in many if one.valid and study.error(one) > floor]
+        valid = [one for one in many if one.valid]
+        used = [one for one in valid if study.error(one) > max(study.floor, exact)]
         if len(used) < 2:
+            if len(valid) > 1 and all(study.error(one) <= exact for one in valid):
+                lines.append(f"- {name}: no order, its errors are rounding")
             continue
         sizes = sizes_of(used)
         order = observed_order(sizes, [study.error(one) for one in used])
@@ -102,7 +108,7 @@ def _theory(study: CostStudy, records: Sequence[Record], order: Order) -> str:
     """Say what order theory promises, and whether it lies within the confidence."""
     method = records[0].method
     name = size_name(records)
-    if name == UNKNOWNS:
+    if name in (UNKNOWNS, SIZE):
         found = order_in_size(records[0].spanned, study.reference.quantity, study.exponent)
         where = "for a smooth solution" if study.exponent is None else "at the corner"
     elif name.endswith("integrator.step"):

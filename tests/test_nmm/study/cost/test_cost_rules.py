@@ -13,7 +13,7 @@ from nmm.geometry.tessellation.block_cover import BlockCover
 from nmm.plots.families import METHODS, styles
 from nmm.study.cases.measure import record
 from nmm.study.cases.record import Record
-from nmm.study.cases.variants import StudyCase
+from nmm.study.cases.variants import SIZE, StudyCase
 from nmm.study.cost.cost_study import CostStudy, cost_study
 from nmm.study.cost.front import LEVELS, levels_of
 from nmm.study.cost.levels import levels
@@ -114,6 +114,23 @@ def test_observed_orders_stand_beside_those_of_theory():
     ]
     page = cost_page(CostStudy("", records, Reference("external_work", 1.0, 0, "exact")), "a.png")
     assert "T1: 4.00 +- 0.00 (4 points) in unknowns^(-1/2); theory 4 = 2 (s + p)" in page
+
+
+@pytest.mark.parametrize(
+    ("off", "said"),
+    [
+        # unknowns 2 (n + 1)^2 on a square would give an order of 2.39
+        (lambda n: n**-2.0, "2.00 +- 0.00 (4 points) in formulation.cover.size; theory 2"),
+        (lambda n: 2e-16 * n, "no order, its errors are rounding"),
+    ],
+)
+def test_orders_are_those_in_the_size_of_covers_and_of_errors_above_rounding(off, said):
+    records = [
+        made("Q0", "quads 0", 2 * (n + 1) ** 2, 1 + off(n), 1.0, spanned=1, **{SIZE: 1 / n})
+        for n in (2, 4, 8, 16)
+    ]
+    page = cost_page(CostStudy("", records, Reference("external_work", 1.0, 0, "exact")), "a.png")
+    assert f"- Q0: {said}" in page
 
 
 def test_the_cheapest_of_each_family_are_compared_at_equal_error():
