@@ -128,8 +128,10 @@ def _distances(study: Comparison) -> list[str]:
 
 
 def _distance(other: Floats, base: Floats) -> float:
-    size = np.sqrt(np.nanmean(base**2))
-    return float(np.sqrt(np.nanmean((other - base) ** 2)) / size) if size else float("nan")
+    # One of them may have no block where the other has one: a stage has removed it.
+    common = ~np.isnan(other) & ~np.isnan(base)
+    size = float(np.linalg.norm(base[common]))
+    return float(np.linalg.norm((other - base)[common])) / size if size else float("nan")
 
 
 def _last(column: Floats | None) -> float | None:

@@ -103,6 +103,19 @@ def test_the_verb_writes_the_page(tmp_path, pulled):
     assert (tmp_path / "compare.png").exists()
 
 
+def test_points_where_one_scene_has_no_block_count_in_no_difference(tmp_path, bar_text):
+    """A second bar, pulled three times as much, is no part of what half of the load differs by."""
+    second = text.box("second", (0, 9), (4, 1), "m") + text.fixed_edge("foot", [(0, 9), (0, 10)])
+    pull = (
+        '[[loads]]\nname = "up"\nkind = "edge"\nsegment = [[4, 9], [4, 10]]\ntraction = [3e-3, 0]'
+    )
+    found = [(1e-3, CORNER + second + pull), (5e-4, CORNER)]
+    scenes = [bar_text(fix='["x"]', traction=f"[{load}, 0]", more=more) for load, more in found]
+    cases = [StudyCase(str(i), nmm.parse_scene(one), KINDS["DDA"]) for i, one in enumerate(scenes)]
+    page = comparison_page(compare_cases(cases, memory=False), "compare.png")
+    assert "1 differs from 0 by 50 % in displacement and 50 % in stress" in page
+
+
 def test_scenes_of_one_case_are_columns_beside_each_other(tmp_path, bar_text):
     """Half of the load beside all of it: displacements differ by half, energies by a quarter."""
     whole, half = tmp_path / "whole.toml", tmp_path / "half.toml"
