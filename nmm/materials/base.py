@@ -1,58 +1,22 @@
-"""The base class of material laws, and what they return."""
+"""The base class of material laws, and those that formulations name."""
 
-from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from abc import abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
 from integration.arrays import Floats
 from nmm.errors import FormulationError
+from nmm.materials.law.across import AcrossThePlane
+from nmm.materials.law.responses import FiniteResponse as FiniteResponse
+from nmm.materials.law.responses import History as History
+from nmm.materials.law.responses import Response as Response
 from nmm.registry import Registry
-
-History = Mapping[str, Floats]
-"""Internal variables of material points by name, each (m, h)."""
-
-
-class Response(NamedTuple):
-    """Response of a law at m material points.
-
-    Attributes
-    ----------
-    stress
-        (m, 3) Pa: xx, yy, xy.
-    tangent
-        (m, 3, 3) derivative of the stress by the strain (Pa).
-    history
-        Internal variables after the step, those that `Law.variables` names.
-    """
-
-    stress: Floats
-    tangent: Floats
-    history: History
-
-
-class FiniteResponse(NamedTuple):
-    """Response of a law at m Green strains.
-
-    Attributes
-    ----------
-    energy
-        (m,) J/m3 of the volume as it was.
-    stress
-        (m, 3) second Piola-Kirchhoff stress (Pa): xx, yy, xy.
-    tangent
-        (m, 3, 3) its derivative by the Green strain (xx, yy, 2 xy), Pa.
-    """
-
-    energy: Floats
-    stress: Floats
-    tangent: Floats
 
 
 @dataclass(frozen=True)
-class Law(ABC):
+class Law(AcrossThePlane):
     """Base of stress-strain laws; a frozen set of parameters in SI units.
 
     A linear law defines `stiffness` alone. A law that is nonlinear or has internal variables
@@ -183,66 +147,10 @@ class Law(ABC):
         """
         return None
 
-    def free_strain(self, plane: str) -> Floats:
-        """Return the strain (3,) in the plane of a free body under a unit isotropic thermal strain.
-
-        In plane strain it is larger, as the third direction is fixed (Timoshenko and Goodier 1951):
-        ``1 + nu`` for an isotropic `stiffness`; an anisotropic law overrides it.
-        """
-        restrained = 0.0
-        if plane == "strain":
-            along, across = self.stiffness(plane)[0, :2]
-            restrained = float(across / (along + across))
-        return np.array([1 + restrained, 1 + restrained, 0.0])
-
-    def pore_share(self, plane: str) -> Floats:
-        """Return the in-plane stress (3,) that a unit pore pressure carries.
-
-        It is 1 in plane strain. In plane stress the free expansion out of the plane reduces it to
-        ``(1 - 2 nu) / (1 - nu)`` for an isotropic `stiffness`; an anisotropic law overrides it.
-        """
-        share = 1.0
-        if plane == "stress":
-            along, across = self.stiffness(plane)[0, :2]
-            share = float((along - 2 * across) / (along - across))
-        return np.array([share, share, 0.0])
-
-    def across_share(self, plane: str) -> Floats:
-        """Return the elastic stress across the plane (1) of unit stresses (3,) in it.
-
-        ``-S_3j / S_33`` of the compliance ``S`` in plane strain, ``nu`` if isotropic: the share by
-        which restraint raises `free_strain`, whatever the axes.
-        """
-        if plane == "stress":
-            return np.zeros(3)
-        return self.free_strain("strain") - self.free_strain("stress")
-
-    def stress_across(self, stress: Floats, history: History, plane: str) -> Floats:
-        """Return the stress across the plane (m,) at a stress (m, 3) with internal variables (Pa).
-
-        It is the variable ``stress_zz`` of laws that keep one. By default it is the elastic one,
-        less that of the thermal strain that is held across.
-        """
-        if "stress_zz" in history:
-            return history["stress_zz"][:, 0]
-        found = stress @ self.across_share(plane)
-        if plane == "strain" and "swelling" in history:
-            found = found - self.modulus_across * history["swelling"][:, 0]
-        return np.asarray(found)
-
-    def potential_across(self, strain: Floats, plane: str) -> Floats:
-        """Return the second Piola-Kirchhoff stress across (m,) at Green strains (m, 3) (Pa)."""
-        return np.asarray(self.potential(strain, plane).stress @ self.across_share(plane))
-
     @property
     @abstractmethod
     def modulus(self) -> float:
         """Young's modulus (Pa): the unit in which penalties are given."""
-
-    @property
-    def modulus_across(self) -> float:
-        """Young's modulus across the plane (Pa), by default that in it."""
-        return self.modulus
 
 
 MATERIAL_LAWS = Registry[Callable[..., Law]](

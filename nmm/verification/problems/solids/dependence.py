@@ -17,7 +17,7 @@ from nmm.formulation import Formulation, Solver
 from nmm.materials.elastic import Elastic
 from nmm.verification.base import Case, Check, Checks, limit
 from nmm.verification.continuum import ContinuumCase, Problem, edge_support, everywhere, on_mesh
-from nmm.verification.problems.solids.patch import HOLED, LAW
+from nmm.verification.problems.solids.patches.body import HOLED, LAW
 
 SQUARE = Polygons.from_vertices([np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])])
 CRACKS: dict[str, list[list[list[float]]]] = {

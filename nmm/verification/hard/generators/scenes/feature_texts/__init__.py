@@ -1,0 +1,1 @@
+"""Texts of scenes that small scenes of single features are put together from, by subject."""

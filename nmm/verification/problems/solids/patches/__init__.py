@@ -1,0 +1,1 @@
+"""Patch tests: fields that covers hold must come out exactly."""
