@@ -16,7 +16,7 @@ from nmm.contact.bonds.turning import beside, counted
 from nmm.contact.laws.contact_laws import ContactLaws, Springs
 from nmm.contact.laws.failing_bonds import break_bonds
 from nmm.contact.points.contact_points import TIED, ContactPoints
-from nmm.contact.problem.step_problem import StepAnswer
+from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.interfaces.limits import Limits
 
 # Stiffness of the springs that go on, in penalties of the terms: of bonds that are broken or shear
@@ -152,3 +152,16 @@ def tied_energy(
     for (force, jump), firm in zip(both, penalty, strict=True):
         total += jump * (force - firm * counted(contacts, jump) / 2)
     return total
+
+
+def lost_energy(
+    problem: StepProblem, loaded: LoadedContacts, broken: Bools, contacts: ContactPoints
+) -> float:
+    """Energy (J) of tension and shear that breaking bonds lose, in springs or consistent terms.
+
+    The energy of compression stays in the spring of the joint.
+    """
+    stiffness = problem.normal_stiffness, problem.shear_stiffness
+    springs = stiffness[0] * np.maximum(loaded.gap, 0.0) ** 2 + stiffness[1] * loaded.slip**2
+    terms = tied_energy(contacts, loaded, stiffness)
+    return float(np.where(contacts.tied, terms, springs / 2)[broken].sum())

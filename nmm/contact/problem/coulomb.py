@@ -8,10 +8,23 @@ dilate and tangents are unsymmetric.
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.contact.problem.step_problem import BONDED, BROKEN, OPEN, SLIDE, STICK, Limits, StepProblem
+from integration.contraction import largest
+from nmm.contact.problem.step_problem import (
+    BONDED,
+    BROKEN,
+    OPEN,
+    SLIDE,
+    STICK,
+    Limits,
+    StepAnswer,
+    StepProblem,
+)
 
 NUMBERS = tuple(int(state) for state in (OPEN, STICK, SLIDE, BONDED, BROKEN))
 """Of the states, which arrays compare without asking what they are."""
+
+# Share of the largest shear of a motion that is rounding.
+NEXT_TO_NOTHING = 1e-6
 
 
 def shear_bound(normal: Floats, closed: Bools, limits: Limits) -> Floats:
@@ -69,3 +82,12 @@ def label(problem: StepProblem, is_open: Bools, sliding: Bools) -> Ints:
     closed = np.where(sliding, slide, np.where(bonded, bond, stick))
     lost = np.where(broken | (problem.limits.tension > 0), gone, open_)
     return np.where(is_open, lost, closed).astype(np.int64)
+
+
+def turned_back(problem: StepProblem, answer: StepAnswer, motion: Floats | None) -> Bools:
+    """Return contacts (m,) that a motion (n,) shears against their shear force."""
+    if motion is None:
+        return np.zeros(problem.n_contacts, dtype=bool)
+    sheared = problem.tangent_rows[:, : len(motion)] @ motion
+    against = np.where(answer.shear_force < 0, sheared, -sheared)
+    return np.asarray(against > NEXT_TO_NOTHING * largest(np.abs(sheared), initial=0.0))

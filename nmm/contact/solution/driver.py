@@ -5,16 +5,16 @@ update their history (`nmm.contact.laws.history_iteration`), and overloaded bond
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 from scipy.sparse import csc_array
 
-from integration.arrays import Bools, Floats, Ints
+from integration.arrays import Floats
 from integration.contraction import largest, some
 from nmm.assembly.model import Model
-from nmm.contact.bonds.release import LoadedContacts, given_way, tied_energy
+from nmm.contact.bonds.release import given_way, lost_energy
 from nmm.contact.enforcement.base import Enforcement
 from nmm.contact.enforcement.rebalanced import solve_rebalanced
 from nmm.contact.laws.contact_laws import ContactLaws
@@ -23,20 +23,17 @@ from nmm.contact.laws.failing_bonds import breaking
 from nmm.contact.laws.history_iteration import HistoryIteration
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.contact_rows import ContactRows
-from nmm.contact.problem.coulomb import shear_bound
+from nmm.contact.problem.coulomb import shear_bound, turned_back
 from nmm.contact.problem.step_problem import SLIDE, StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform, solve_through
-from nmm.contact.solution.posed_step import PosedStep, Posing
+from nmm.contact.solution.agreed import Agreed
+from nmm.contact.solution.posed_step import Posing
 from nmm.contact.solution.record import BrokenBonds, ContactSolution
 from nmm.contact.solution.request import StepRequest
 from nmm.contact.solution.untouched import StepsWithoutContacts
 from nmm.errors import SolveError
-from nmm.frozen import with_parts
 from nmm.solvers.linear import LinearSolver
 from nmm.solvers.unchecked import product
-
-# Share of the largest shear of a motion that is rounding.
-NEXT_TO_NOTHING = 1e-6
 
 
 class ContactSolver:
@@ -121,7 +118,7 @@ class ContactSolver:
             freed = broken & contacts.tied
             # In statics bonds break at the load of the answer; in time a step goes without them.
             loaded = answer if request.step is None else contacts
-            loss += _lost(agreed.posed.problem, loaded, brittle, contacts)
+            loss += lost_energy(agreed.posed.problem, loaded, brittle, contacts)
             springs, limits = iteration.springs, iteration.response.limits
             overloaded = broken, brittle
             contacts, stored = given_way(self._laws, contacts, overloaded, loaded, springs, limits)
@@ -138,7 +135,7 @@ class ContactSolver:
         rows: ContactRows,
         request: StepRequest,
         besides: Sequence[Transform],
-    ) -> "_Agreed":
+    ) -> Agreed:
         """Repeat until the history agrees with the solution it was used for, or none is found."""
         iteration, passes = HistoryIteration(self._laws, contacts), 0
         start: Floats | None = None
@@ -152,7 +149,7 @@ class ContactSolver:
                 fault = iteration.settled(answer, sliding)
                 answer = answer if fault is None else replace(answer, verdict=fault)
             if iteration.done or not answer.verdict.converged:
-                return _Agreed(iteration, posed, answer, sliding, passes)
+                return Agreed(iteration, posed, answer, sliding, passes)
             start = answer.increment
 
     def acting(self, back: Floats | None = None) -> csc_array | None:
@@ -212,56 +209,3 @@ class ContactSolver:
             answer = solve_rebalanced(self._enforcement, started, solver, self.memory, body)
         self.memory.answered = self.last = problem, answer
         return answer
-
-
-@dataclass(frozen=True)
-class _Agreed:
-    """A solution with which the laws agree, its problem, and the slip (m,) under load."""
-
-    iteration: HistoryIteration
-    posed: PosedStep
-    answer: StepAnswer
-    sliding: Floats
-    passes: int
-
-    def told(
-        self,
-        found: ContactSolution,
-        start: ContactPoints,
-        rows: ContactRows,
-        body: Ints | None,
-    ) -> ContactSolution:
-        """Return the solution as an accepted step from ``start``, with the loss to friction.
-
-        ``body`` (e,) are the bodies of edges, in statics.
-        """
-        answer, sliding = self.answer, self.sliding
-        losses = self.iteration.losses(answer, sliding)
-        rubbed = losses.energy(static=body is not None) + self.posed.loss(start, answer)
-        friction = None if body is None else losses.friction(body)
-        missed, loss = self.posed.missed(answer), found.loss + rubbed
-        return with_parts(
-            found, loss=loss, friction=friction, sliding=sliding, rows=rows, missed=missed
-        )
-
-
-def turned_back(problem: StepProblem, answer: StepAnswer, motion: Floats | None) -> Bools:
-    """Return contacts (m,) that a motion (n,) shears against their shear force."""
-    if motion is None:
-        return np.zeros(problem.n_contacts, dtype=bool)
-    sheared = problem.tangent_rows[:, : len(motion)] @ motion
-    against = np.where(answer.shear_force < 0, sheared, -sheared)
-    return np.asarray(against > NEXT_TO_NOTHING * largest(np.abs(sheared), initial=0.0))
-
-
-def _lost(
-    problem: StepProblem, loaded: LoadedContacts, broken: Bools, contacts: ContactPoints
-) -> float:
-    """Energy (J) of tension and shear that breaking bonds lose, in springs or consistent terms.
-
-    The energy of compression stays in the spring of the joint.
-    """
-    stiffness = problem.normal_stiffness, problem.shear_stiffness
-    springs = stiffness[0] * np.maximum(loaded.gap, 0.0) ** 2 + stiffness[1] * loaded.slip**2
-    terms = tied_energy(contacts, loaded, stiffness)
-    return float(np.where(contacts.tied, terms, springs / 2)[broken].sum())
