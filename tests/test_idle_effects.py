@@ -12,7 +12,7 @@ import pytest
 import nmm
 from nmm.assembly.applied_forces import AppliedForces
 from nmm.effects.gravity import Gravity
-from nmm.effects.members.chains import Chains
+from nmm.effects.members.chains.chains import Chains
 from nmm.effects.members.linked import Linked
 from nmm.effects.members.links import Links
 from nmm.model.effects_table import EFFECTS

@@ -6,13 +6,13 @@ step ends: stiff ties that were left there would push back by far more than they
 in time of what may turn are solved for the forces at their end.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from integration.arrays import Floats, Ints
-from integration.sparse import csc_array, csr_array, vstack
+from integration.sparse import csc_array
 from nmm.assembly.model import Model
 from nmm.assembly.moving.motion import middle
 from nmm.assembly.state import State
@@ -20,15 +20,12 @@ from nmm.assembly.stress_points import StressAt
 from nmm.assembly.tractions.held_edges import HeldEdge
 from nmm.constraints.imposition import Imposition
 from nmm.constraints.interface import joined
-from nmm.constraints.ties.kept_jumps import KeptJumps
+from nmm.constraints.ties.held_by_multipliers import HeldByMultipliers
 from nmm.constraints.turned_axes import rounded, turned_axes
-from nmm.effects.base import Effect, Instant, Span, StepForce
-
-# Multipliers (k,) of each space as found last and as the step began (Pa).
-LastMultipliers = tuple[tuple[Floats | None, Floats | None], ...]
+from nmm.effects.base import Instant, Span, StepForce
 
 
-class TiedInterfaces(Effect):
+class TiedInterfaces(HeldByMultipliers):
     """Interfaces with the methods that tie them.
 
     Parameters
@@ -45,21 +42,15 @@ class TiedInterfaces(Effect):
     def __init__(
         self, ties: Sequence[Imposition], n_unknowns: int, turning: Model | None = None
     ) -> None:
-        self.jumps = KeptJumps(ties)
+        super().__init__(ties)
         # Multipliers hold jumps of lines.
         self._turning_model = None if any(tie.shared is not None for tie in ties) else turning
         self._bends = any(tie.bends for tie in ties)
         self._n = n_unknowns
         self._kept: tuple[Floats, csc_array] | None = None  # the matrix, at angles
-        self._spaces = list({id(t.shared): t.shared for t in ties if t.shared}.values())
         unlike = [t.interface.bodies for t in ties if t.turns]
         self._stresses: Sequence[StressAt] = ()
         self._turning = np.unique(np.concatenate([*unlike, np.zeros(0, dtype=np.int64)]))
-
-    @property
-    def ties(self) -> list[Imposition]:
-        """The interfaces with their methods."""
-        return self.jumps.ties
 
     @property
     def about(self) -> str:
@@ -75,11 +66,6 @@ class TiedInterfaces(Effect):
     def turns_with_bodies(self) -> str:
         oriented = any(tie.oriented for tie in self.ties)
         return "springs that are unlike along an interface and across" if oriented else ""
-
-    @property
-    def multipliers(self) -> int:
-        """Number of conditions that multipliers hold."""
-        return sum(space.size for space in self._spaces)
 
     def matrix(self, state: State) -> csc_array:
         """Return the stiffness of all ties, the same object as long as no tied body turns."""
@@ -176,34 +162,6 @@ class TiedInterfaces(Effect):
         """Forces (m, 2) in N on the first side of a tie by stresses that other effects add."""
         return tie.added(state, self._stresses, end.time)
 
-    def border(self, state: State, end: Instant) -> tuple[csr_array, Floats] | None:
-        """Conditions ``rows @ d = sides`` on the step's unknowns; None without multipliers."""
-        if not self._spaces:
-            return None
-        found: dict[int, tuple[csr_array, Floats]] = {}
-        for tie, jump in self._each(state, end):
-            if tie.shared is not None:
-                rows, sides = tie.conditions(state, jump)
-                before = found.get(id(tie.shared))
-                both = (rows, sides) if before is None else (before[0] + rows, before[1] + sides)
-                found[id(tie.shared)] = both
-        parts = found.values()
-        return csr_array(vstack([rows for rows, _ in parts])), np.concatenate([s for _, s in parts])
-
-    def keep(self, multipliers: Floats) -> Floats:
-        """Remember the multipliers of the last solution, for reactions; return the others."""
-        for space in self._spaces:
-            space.values, multipliers = multipliers[: space.size], multipliers[space.size :]
-        return multipliers
-
-    def carried(self) -> LastMultipliers:
-        """See `Effect.carried`: the last multipliers, and those before, of each space."""
-        return tuple((shared.values, shared.before) for shared in self._spaces)
-
-    def carry(self, carried: LastMultipliers) -> None:
-        for shared, (values, before) in zip(self._spaces, carried, strict=True):
-            shared.values, shared.before = values, before
-
     def forget(self) -> None:
         self._kept = None
         self.jumps.forget()
@@ -249,10 +207,6 @@ class TiedInterfaces(Effect):
         """Return the unknowns tied to those of neighbours, as by ghost terms."""
         none = [np.empty(0, dtype=np.int64)]
         return np.unique(np.concatenate(none + [tie.tied_unknowns for tie in self.ties]))
-
-    def _each(self, state: State, end: Instant) -> Iterator[tuple[Imposition, Floats]]:
-        """Each tie with its jump (m, 2) from where the ground is at an instant."""
-        return zip(self.ties, self.jumps.at(state, end), strict=True)
 
 
 _NOTHING = (np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros(0))

@@ -7,7 +7,7 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.effects.base import Setup
-from nmm.effects.members.chains import Chains
+from nmm.effects.members.chains.chains import Chains
 from nmm.effects.members.ends import MemberEnds, elements_along, elements_at, nowhere
 from nmm.effects.members.fibres import Fibres
 from nmm.effects.members.linked import Linked

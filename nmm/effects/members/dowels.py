@@ -17,7 +17,8 @@ from integration.arrays import Floats, Ints
 from integration.plane_vectors import counterclockwise
 from nmm.assembly.state import State
 from nmm.effects.base import Setup
-from nmm.effects.members.chains import NONE, Chains
+from nmm.effects.members.chains.chains import Chains
+from nmm.effects.members.chains.layout import NONE
 from nmm.effects.members.crossings import JointsCrossed
 from nmm.effects.members.ends import MemberEnds
 from nmm.effects.members.fibres import Fibres

@@ -1,20 +1,20 @@
 """The base of effects of members: axial forces along links between points, with memory."""
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Floats
 from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.kept import forget_kept, kept, kept_of_object
 from nmm.assembly.state import State
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 from nmm.effects.given.resistance import Resistance
-from nmm.effects.members.chains import ChainAnswer
+from nmm.effects.members.chains.chains import ChainAnswer
 from nmm.effects.members.kept_matrix import LIKE, KeptMatrix
 from nmm.effects.members.member_set import AXIAL, BOND, SLIP, WIDTH, Members
+from nmm.effects.members.reports import largest, segments
 from nmm.errors import SolveError
 from nmm.quantity import MemberSegments
 
@@ -24,10 +24,6 @@ if TYPE_CHECKING:
 
     Pair = tuple[Floats, Floats]
     Ends = tuple[Pair, Pair]
-
-
-# Relative difference below which forces differ by rounding alone, as at both ends of a bar.
-ALIKE = 1e-6
 
 
 class Linked(Effect):
@@ -113,7 +109,7 @@ class Linked(Effect):
         members, found = self.members, self._answer(state)
         links, chains = members.links, members.chains
         lines, memory = links.lines(state), found.axial.memory
-        way = links.stretch(state) - self._offset + chains.opening @ found.slip
+        way = links.stretch(state) - self._offset + chains.layout.opening @ found.slip
         across = links.rows(state, lines.normal * (lines.across > 0)[:, None])
         return Resistance(
             links.rows(state, lines.along),
@@ -121,7 +117,7 @@ class Linked(Effect):
             *chains.axial.limits(memory),
             found.axial.force,
             chains.axial.slack(way, memory),
-            csr_array(chains.opening.T),
+            csr_array(chains.layout.opening.T),
             chains.bond.limits(found.bond.memory)[1],
         )
 
@@ -157,18 +153,10 @@ class Linked(Effect):
 
     def history(self, state: State) -> dict[str, float]:
         """Return the largest axial force (N) and the largest slip (m) of each member."""
-        members, found = self.members, self._answer(state)
-        row = _largest(members.names, members.owner, found.axial.force, "force")
-        if len(found.slip):
-            row |= _largest(members.names, members.slip_owner, found.slip, "slip")
-        return row
+        return largest(self.members, self._answer(state))
 
     def segments(self, state: State) -> MemberSegments:
-        members, found = self.members, self._answer(state)
-        slip = np.append(found.slip, 0.0)  # -1 is a fixed end
-        mean = (slip[members.chains.left] + slip[members.chains.right]) / 2
-        place = members.links.place(state)
-        return MemberSegments(place, members.owner, members.names, found.axial.force, mean)
+        return segments(self.members, state, self._answer(state))
 
     def carried(self) -> tuple[Floats]:
         """See `Effect.carried`: elongations at which links were installed."""
@@ -239,16 +227,3 @@ class Linked(Effect):
             f"{self.name} {', '.join(names)}: no stable slips of its bond under this motion of its "
             "ends, as where it loses force faster than the bar unloads (snap-back)"
         )
-
-
-def _largest(names: Sequence[str], owner: Ints, values: Floats, what: str) -> dict[str, float]:
-    """Return the value (m,) of the largest magnitude of each member by its column.
-
-    Of magnitudes that differ by rounding the first along the member is taken.
-    """
-    sizes, most = np.abs(values), np.zeros(len(names))
-    np.maximum.at(most, owner, sizes)
-    large = np.flatnonzero(sizes >= (1 - ALIKE) * most[owner])[::-1]
-    largest = np.zeros(len(names))
-    largest[owner[large]] = values[large]
-    return {f"{name}:{what}": float(one) for name, one in zip(names, largest, strict=True)}

@@ -7,7 +7,8 @@ from typing import Self
 import numpy as np
 
 from integration.arrays import Floats, Ints
-from nmm.effects.members.chains import NONE, Chains
+from nmm.effects.members.chains.chains import Chains
+from nmm.effects.members.chains.layout import NONE
 from nmm.effects.members.fibres import Fibres
 from nmm.effects.members.links import Links
 

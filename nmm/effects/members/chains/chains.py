@@ -14,9 +14,9 @@ from typing import Self
 import numpy as np
 from scipy.linalg import LinAlgError, cho_solve_banded, cholesky_banded
 from scipy.sparse import block_diag, coo_array, csr_array, diags_array
-from scipy.sparse.csgraph import connected_components
 
 from integration.arrays import Floats, Ints
+from nmm.effects.members.chains.layout import NONE, SlipLayout
 from nmm.effects.members.fibres import FibreAnswer, Fibres
 from nmm.solvers.unchecked import product
 
@@ -83,16 +83,9 @@ class Chains:
         return cls(axial, none, fixed, fixed)
 
     @cached_property
-    def opening(self) -> csr_array:
-        """(m, p) from slips to the elongations of links."""
-        rows, columns, values = [], [], []
-        for end, sign in ((self.right, 1.0), (self.left, -1.0)):
-            at = np.flatnonzero(end >= 0)
-            rows.append(at)
-            columns.append(end[at])
-            values.append(np.full(len(at), sign))
-        parts = np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))
-        return csr_array(parts, shape=(len(self.left), len(self.bond)))
+    def layout(self) -> SlipLayout:
+        """Where the slips are."""
+        return SlipLayout(self.left, self.right, len(self.bond))
 
     @property
     def elastic(self) -> bool:
@@ -132,7 +125,7 @@ class Chains:
         if not len(found.slip):
             return csr_array(diags_array(own))
         band, values = self._band(found), []
-        for links, slips, opening in self._bars:  # each bar has a small system of its own
+        for links, slips, opening in self.layout.bars:  # each bar has a small system of its own
             block = np.diag(own[links])
             if len(slips):
                 stiff = own[links, None] * opening
@@ -140,50 +133,32 @@ class Chains:
                 block = block - stiff @ cho_solve_banded((factor, False), stiff.T)
             values.append(block.ravel())
         shape = (len(own), len(own))
-        return csr_array(coo_array((np.concatenate(values), self._places), shape=shape))
-
-    @cached_property
-    def _places(self) -> tuple[Ints, Ints]:
-        """Rows and columns of the tangents of all chains."""
-        pairs = [np.meshgrid(links, links, indexing="ij") for links, *_ in self._bars]
-        row, column = (np.concatenate([pair[i].ravel() for pair in pairs]) for i in (0, 1))
-        return row, column
+        return csr_array(coo_array((np.concatenate(values), self.layout.places), shape=shape))
 
     def _at(self, stretch: Floats, slip: Floats, memory: tuple[Floats, Floats]) -> ChainAnswer:
-        axial = self.axial.answer(stretch + self._opened(slip), memory[0])
+        axial = self.axial.answer(stretch + self.layout.opened(slip), memory[0])
         return ChainAnswer(axial, self.bond.answer(slip, memory[1]), slip, NONE)
 
     def _linear_slips(self, stretch: Floats) -> Floats:
         """Return the slips (p,) at which linear laws balance under elongations (m,)."""
         axial, bond = self.axial, self.bond
-        held = self._pulled(axial.area * axial.start + axial.stiffness * stretch)
+        held = self.layout.pulled(axial.area * axial.start + axial.stiffness * stretch)
         return -product(self._compliance, held + bond.area * bond.start)
 
     @cached_property
     def _compliance(self) -> csr_array:
         """(p, p) from forces at slips to the slips of linear laws."""
         factor = cholesky_banded(self._elastic)
-        bars = [slips for _, slips, _ in self._bars if len(slips)]  # one after the other
+        bars = [slips for _, slips, _ in self.layout.bars if len(slips)]  # one after the other
         parts = [cho_solve_banded((factor[:, one], False), np.eye(len(one))) for one in bars]
         return csr_array(block_diag(parts))
 
     def _residual(self, at: ChainAnswer) -> tuple[Floats, float]:
         """Residual forces (p,), and the magnitude of forces or of their rounding (N)."""
-        out = at.bond.force + self._pulled(at.axial.force)
+        out = at.bond.force + self.layout.pulled(at.axial.force)
         rounded = self._stiffest * float(np.abs(at.slip).max(initial=0.0)) * ROUNDING / BALANCED
         forces = (at.axial.force, at.bond.force)
         return out, max(rounded, *(float(np.abs(one).max(initial=0.0)) for one in forces))
-
-    def _opened(self, slip: Floats) -> Floats:
-        """Elongations (m,) of links by slips (p,)."""
-        ends = np.append(slip, 0.0)  # -1 is a fixed end
-        return np.asarray(ends[self.right] - ends[self.left])
-
-    def _pulled(self, force: Floats) -> Floats:
-        """Forces (p,) at slips of axial forces (m,)."""
-        slips = len(self.bond)
-        pulled = np.bincount(self.right % (slips + 1), force, slips + 1)
-        return np.asarray(pulled - np.bincount(self.left % (slips + 1), force, slips + 1))[:-1]
 
     @cached_property
     def _stiffest(self) -> float:
@@ -215,45 +190,22 @@ class Chains:
         try:
             return cholesky_banded(band), NONE
         except LinAlgError:
-            return band, np.concatenate([s for _, s, _ in self._bars if not _positive(band[:, s])])
+            return band, np.concatenate(
+                [s for _, s, _ in self.layout.bars if not _positive(band[:, s])]
+            )
 
     @cached_property
     def _linear_factor(self) -> Floats:
         """Factor of the tridiagonal matrix of linear laws."""
         bond = (1 + LEFT) * self.bond.stiffness
-        return np.asarray(cholesky_banded(self._matrix(self.axial.stiffness, bond)))
+        return np.asarray(cholesky_banded(self.layout.matrix(self.axial.stiffness, bond)))
 
     def _band(self, at: ChainAnswer) -> Floats:
-        return self._matrix(at.axial.tangent, at.bond.tangent + LEFT * self.bond.stiffness)
+        return self.layout.matrix(at.axial.tangent, at.bond.tangent + LEFT * self.bond.stiffness)
 
     @cached_property
     def _elastic(self) -> Floats:
-        return self._matrix(self.axial.stiffness, self.bond.stiffness)
-
-    def _matrix(self, axial: Floats, bond: Floats) -> Floats:
-        """Stiffness of slips in upper banded form (2, p)."""
-        band = np.zeros((2, len(bond)))
-        band[1] = bond
-        for end in (self.left, self.right):
-            at = end >= 0
-            band[1] += np.bincount(end[at], axial[at], minlength=len(bond))
-        both = (self.left >= 0) & (self.right >= 0)
-        band[0, self.right[both]] = -axial[both]
-        return band
-
-    @cached_property
-    def _bars(self) -> list[tuple[Ints, Ints, Floats]]:
-        """Links, slips and `opening` of each connected chain."""
-        joined = csr_array(abs(self.opening.T) @ abs(self.opening))
-        count, label = connected_components(joined, directed=False)
-        end = np.maximum(self.left, self.right)
-        of_link = np.where(end >= 0, label[np.maximum(end, 0)], -1) if len(label) else end
-        parts = [(np.flatnonzero(of_link == n), np.flatnonzero(label == n)) for n in range(count)]
-        parts += [(np.array([link]), NONE) for link in np.flatnonzero(of_link < 0)]
-        return [(links, slips, self.opening[links][:, slips].toarray()) for links, slips in parts]
-
-
-NONE = np.zeros(0, dtype=np.int64)
+        return self.layout.matrix(self.axial.stiffness, self.bond.stiffness)
 
 
 def _positive(band: Floats) -> bool:
