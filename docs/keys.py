@@ -31,7 +31,8 @@ all its pieces, `beam.12` one of them, and "all" all blocks.
 
 An edge load acts on the boundary along its segment, a point load at its point, a body load on the
 whole block, or on all. `history` holds pairs of time and factor; in statics `[loading]` scales
-loads and supports with a displacement. Interfaces act by `between`, a pair of materials or "any".
+loads and supports with a displacement, and their time is the load factor, while that of heat and
+water that are stored is in s. Interfaces act by `between`, a pair of materials or "any".
 """
 FORMULATION = """# Formulation files
 

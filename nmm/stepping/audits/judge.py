@@ -10,6 +10,7 @@ from nmm.stepping.audits.bodies import bodies
 from nmm.stepping.audits.energy import energy
 from nmm.stepping.audits.equations import equations
 from nmm.stepping.audits.fields import fields
+from nmm.stepping.audits.histories import histories
 from nmm.stepping.audits.matter.closed_cracks import closed_cracks
 from nmm.stepping.audits.matter.ellipticity import ellipticity
 from nmm.stepping.audits.matter.growth import growth
@@ -26,6 +27,7 @@ AUDITS: tuple[Callable[[EndedRun], Findings], ...] = (
     equations,
     balance,
     fields,
+    histories,
     bodies,
     growth,
     closed_cracks,

@@ -53,6 +53,7 @@ name = "cold"
 segment = [[2, 0], [2, 0.5]]
 temperature = 0.0
 """
+DAY = 86400
 MESH = "[formulation.cover]\ntype = 'triangles'\nsize = 0.37\ndegree = 1\n"
 TRANSIENT = """
 [heat]
@@ -290,6 +291,23 @@ def test_degrees_beside_differences_of_temperature_are_told(heat, hot, cold, tol
     warned = [one for one in nmm.run(nmm.parse_scene(text)).summary.warnings if "heat: " in one]
     assert len(warned) == bool(told)
     assert told in " ".join(warned)
+
+
+@pytest.mark.parametrize(
+    ("heats", "pulls", "told"),
+    [
+        (f"[[0, 0], [{2 * DAY}, 1]]", "[[0, 0], [1, 1]]", ""),
+        (f"[[0, 0], [{0.2 * DAY}, 1], [{2 * DAY}, 1]]", "[[0, 1], [1e9, 1]]", ""),
+        ("[[0, 0], [1, 1]]", "[[0, 0], [1, 1]]", "hot: its history, in s as [heat] duration, ends"),
+        ("[[0, 1], [9, 1]]", f"[[0, 0], [{2 * DAY}, 1]]", "pull: its history, in load factors, en"),
+    ],
+)
+def test_histories_by_the_clock_of_another_table_are_told(heats, pulls, told):
+    """Two days in ten steps: heat counts seconds, the pull load factors up to 1."""
+    text = wall('conductance = "perfect"', heat=TRANSIENT, hot=f"40.0\nhistory = {heats}")
+    text = text.replace('traction = ["1 MPa", 0]', f'traction = ["1 MPa", 0]\nhistory = {pulls}')
+    warned = [one for one in nmm.run(nmm.parse_scene(text)).summary.warnings if "history" in one]
+    assert [one[: len(told)] for one in warned] == [told] * bool(told)
 
 
 @pytest.mark.parametrize("cover", ["quads", "triangles"])

@@ -1,4 +1,4 @@
-"""Thresholds of increments in which friction slides, bonds break or matter flows."""
+"""Thresholds of increments in which friction slides, bonds break, matter flows or loads change."""
 
 from nmm.stepping.audits.thresholds.base import Threshold
 
@@ -8,6 +8,13 @@ INCREMENTS: dict[str, Threshold] = {
         1.0,
         None,
         "`[loading]` up to a factor, with contact",
+    ),
+    "history_missed": Threshold(
+        "last change of a history in load factors over the last of these, or first step over that "
+        "of one in seconds",
+        1 + 1e-9,
+        None,
+        "statics with transient heat or water, without stages",
     ),
     "first_increment": Threshold(
         "what friction took in the first increment, over the turnover",
