@@ -28,7 +28,6 @@ from nmm.contact.solution.record import (
 )
 from nmm.contact.solution.step_bonds import StepBonds
 from nmm.contact.workings import ContactWorkings
-from nmm.frozen import with_parts
 
 if TYPE_CHECKING:
     from nmm.assembly.tractions.held_edges import HeldEdge
@@ -155,11 +154,6 @@ class ModelContact(ContactWorkings):
     def correct(self, solved: ContactSolution, start: State) -> None:
         """Let the next solution correct the step from ``start``, of which one was committed."""
         self.record = correcting(self.record, solved, self.partners.surface(start))
-
-    def seek_corners_anew(self) -> None:
-        """Let go of pairs held back: they are contacts again where a step lets them through."""
-        if self.record.crossed is not None:
-            self.record = with_parts(self.record, crossed=None)
 
     def restore(self, record: ContactRecord) -> None:
         """Go back to an earlier step, and start from there alone.

@@ -158,8 +158,6 @@ class _Search:
     def _take(self, found: Attempt, length: float) -> None:
         """Continue from the end of a step."""
         self.moving.accept(found)
-        if self.moving.plan.contact is not None:
-            self.moving.plan.contact.seek_corners_anew()
         self.lost += _taken(self.moving, self.state, found)
         goes = self.pace.speed(self.heavy, found.state.velocity)
         self.state = replace(found.state, velocity=goes, acceleration=np.zeros_like(goes))

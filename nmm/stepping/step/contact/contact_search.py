@@ -54,6 +54,8 @@ class SoughtContacts:
         where none did.
     crossings, midpoints
         Solutions for such pairs, and for forces that act elsewhere half way.
+    held
+        Whether pairs are contacts because they held bodies back in the step before.
     """
 
     reach: float
@@ -65,6 +67,7 @@ class SoughtContacts:
     broken: "BrokenBonds | None" = None
     crossings: int = 0
     midpoints: int = 0
+    held: bool = False
 
     def without(self, broken: "BrokenBonds | None") -> "SoughtContacts":
         """Return what was sought without bonds that broke in the same step, if any did."""
@@ -170,6 +173,18 @@ class ContactSearch:
         half = half or sought.midpoint
         forces = solved.answer.normal_force, solved.answer.shear_force
         return replace(sought, midpoint=half, forces=forces, midpoints=sought.midpoints + 1)
+
+    def held_back(self, equations: Equations, sought: SoughtContacts) -> SoughtContacts | None:
+        """Return the contacts with which statics without a solution is solved again; else None.
+
+        Corners that came to rest past one another hold each other back. Search finds such pairs by
+        the motion of a solution without them, and there may be none.
+        """
+        held = self.contact.record.crossed
+        if equations.step is not None or held is None or sought.held:
+            return None
+        crossed = joined(sought.crossed, held)
+        return self._anew(equations, replace(sought, crossed=crossed, held=True))
 
     def _misjudged(self, equations: Equations, end: State) -> bool:
         inertia = self._current.plan.inertia

@@ -96,7 +96,11 @@ class ContactStepSolver:
             if good and result.motion <= sought.reach:
                 motion = partners.motion(state, result.state)
             given = equations, sought, solved, result, motion
-            further = self.search.again(*given) if good else None
+            if good:
+                further = self.search.again(*given)
+            else:
+                stuck = not (verdict.converged or solved.stopped)
+                further = self.search.held_back(equations, sought) if stuck else None
             if further is None:
                 break
             sought = further
