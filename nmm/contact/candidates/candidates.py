@@ -35,6 +35,7 @@ from nmm.contact.points.joint_book import JointBook
 from nmm.contact.problem.step_problem import Limits
 from nmm.contact.solution.geometry import ContactGeometry
 from nmm.contact.solution.record import ContactRecord, ContactSolution
+from nmm.frozen import with_parts
 
 
 class Candidates:
@@ -134,8 +135,10 @@ class Candidates:
     ) -> tuple[tuple[csr_array, csr_array], Limits]:
         """Return rows and strength of contacts that bonds hold or that are open by ``reach``.
 
-        In kinks of two bodies they are more than a step finds: whatever may carry is among them.
+        They are more than a step finds, in kinks of two bodies and at ends of joints whose bonds
+        hold: whatever may carry, once bonds gave way too, is among them.
         """
+        record = with_parts(record, book=record.book.opened)
         kinks = self.partners.in_kinks(state, reach, record.book)
         _, contacts = self.sought(record, state, reach, crossed=kinks)
         contacts = contacts.take(contacts.bonded | (contacts.gap <= reach))

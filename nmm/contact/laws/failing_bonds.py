@@ -74,7 +74,11 @@ def break_bonds(laws: ContactLaws, contacts: ContactPoints, broken: Bools) -> Co
 
 
 def strength(laws: ContactLaws, contacts: ContactPoints) -> Limits:
-    """Return the force limits with the strength of intact bonds, which steps judge apart."""
+    """Return the force limits with the strength of intact bonds, which steps judge apart.
+
+    The shear that a bond which softens bears is ``c + mu max(p, 0)``, not less under tension ``T``.
+    No line of slope ``mu`` below ``c + mu (p + T)`` bounds that.
+    """
     limits = laws.response(contacts, laws.springs(contacts)[0]).limits
     tension, cohesion = limits.tension.copy(), limits.cohesion.copy()
     for law, index, _ in laws.by_law(contacts):
@@ -83,4 +87,6 @@ def strength(laws: ContactLaws, contacts: ContactPoints) -> Limits:
         cohesion[index] = np.where(
             np.isfinite(cohesion[index]), cohesion[index], law.cohesion * area
         )
+    softens = contacts.bonded & ~laws.brittle[contacts.interface]
+    cohesion += np.where(softens, limits.friction * tension, 0.0)
     return Limits(tension, cohesion, limits.friction)

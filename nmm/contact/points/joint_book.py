@@ -93,6 +93,11 @@ class JointBook:
         now = waiting & np.isin(self.pair_joint, self.joint[np.isin(self.points.key, points)])
         return replace(self, pair_bears=self.pair_bears | now)
 
+    @property
+    def opened(self) -> "JointBook":
+        """The book with every end that would bear once bonds give way."""
+        return replace(self, pair_bears=self.pair_beyond | self.pair_bears)
+
     def without(self, contacts: ContactPoints) -> "JointBook":
         """Return the book without the bonds and the terms that are gone among the contacts."""
         points = self.points

@@ -6,7 +6,7 @@ from typer.testing import CliRunner
 
 import nmm
 from nmm.cli.app import app
-from nmm.stepping.bounds.static_theorem import carried
+from nmm.stepping.bounds.static_theorem import carried, load_bound
 from nmm.stepping.drive.verdict import EXIT_CODES, MEANT
 from nmm.stepping.prepare import prepare
 
@@ -180,6 +180,18 @@ def test_a_bond_carries_its_strength_in_the_static_theorem():
     assert carried(made.stepper, made.start, 1.0).factor == pytest.approx(right, rel=1e-5)
 
 
+@pytest.mark.parametrize("law", ["", 'law = "linear_softening"\nfracture_energy = 100\n'])
+@pytest.mark.parametrize("strength", [1e3, 1e5])
+def test_a_bonded_block_turns_over_about_its_corner_in_the_static_theorem(law, strength):
+    # No bond pulls by more than its strength, nothing pushes beyond the corner: (W + f A) b / 2 h.
+    # Within its Gauss points, of which ends tell once bonds give way, it would be 0.577 of that.
+    more = f"tensile_strength = {strength}\ncohesion = 1e9\nbonded = true\n{law}"
+    text = BLOCKS.replace('[[blocks]]\nname = "base"', more + '[[blocks]]\nname = "base"') % 30
+    made = prepare(nmm.parse_scene(text + PUSH % (2.0, 1.0)), nmm.Formulation())
+    right = (WEIGHT + strength) * 0.5 / 2.0
+    assert load_bound(made.stepper, made.start).factor == pytest.approx(right, rel=1e-6)
+
+
 def test_a_proof_says_that_bonds_which_broke_before_count_as_broken(monkeypatch):
     made = prepare(nmm.parse_scene(BLOCKS % 45 + PUSH % (2.0, WEIGHT)), nmm.Formulation())
     whole = carried(made.stepper, made.start, 1.0)
@@ -207,6 +219,23 @@ def test_a_block_led_at_once_beyond_its_limit_is_told_what_it_carries(height, fr
     said = float(found.sentence.split("no more than load factor ")[1].split(" ")[0])
     assert said == pytest.approx(right, rel=1e-5)
     assert "lower the load" in found.sentence
+
+
+@pytest.mark.parametrize("share", [0.995, 1.005])
+@pytest.mark.parametrize("enforcement", ["penalty", "cone"])
+@pytest.mark.parametrize(
+    ("height", "friction", "right"), [(1.8, 60, 0.5 / 1.8), (0.2, 30, 0.57735)]
+)
+def test_a_load_just_below_the_limit_is_carried_and_one_just_above_is_not(
+    height, friction, right, enforcement, share
+):
+    # Springs of 10 E let the block lean by 4e-5 of its width; half a percent is far from that.
+    text = BLOCKS % friction + PUSH % (height, share * right * WEIGHT)
+    text += f'[formulation.contact]\nenforcement = "{enforcement}"\n'
+    scene = nmm.parse_scene(text)
+    found = nmm.run(scene, scene.formulation).summary
+    assert found.status == ("converged" if share < 1 else "collapsed")
+    assert share < 1 or "static theorem" in found.sentence
 
 
 def test_a_block_on_a_slope_too_steep_for_it_is_a_failed_structure():
