@@ -28,8 +28,6 @@ functions leave up to 1e-7, which audits tell."""
 PIVOT = 1e-15
 """Part of the diagonal added to every matrix: what rounding changes anyway. It keeps a pivot of a
 rank-deficient matrix from being exactly zero, over which decompositions trip."""
-DIRECTIONS = 12
-"""Most directions in which the shift of a decomposition is taken out at once."""
 FLOOR = 1e-14
 """Residual that rounding leaves for each unit of the solution."""
 SLOW = 1e-10
@@ -234,7 +232,7 @@ class Factor:
             return np.asarray(self.scale * (self.matrix @ (self.scale * x)))
 
         inverse, goal = self.decomposition.solve, max(1e-14, tolerance)
-        x = minimal_residual(product, inverse, load, directions=DIRECTIONS, tolerance=goal)
+        x = minimal_residual(product, inverse, load, tolerance=goal)
         rest = norm(load - product(x)) / size
         return self.scale * x, rest
 

@@ -20,7 +20,7 @@ from nmm.solvers.unchecked import magnitudes
 
 # Rounding of elastic forces, as a share of the load, from which rigid motions are kept apart.
 ROUNDED = 1e-12
-DIRECTIONS, RESTARTS = 12, 6
+RESTARTS = 6
 # Share of the diagonal of ``int u . v`` below which unknowns displace nothing.
 NOTHING = 1e-14
 
@@ -122,7 +122,6 @@ def solve_apart(
         product,
         inverse,
         rhs,
-        directions=DIRECTIONS,
         tolerance=1e-15,
         rounds=RESTARTS,
         start=np.zeros(n + r + k),

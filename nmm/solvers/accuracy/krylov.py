@@ -8,13 +8,15 @@ from integration.arrays import Floats
 
 Map = Callable[[Floats], Floats]
 
+DIRECTIONS = 12
+"""Most steps before a restart: directions in which a shift is taken out at once."""
+
 
 def minimal_residual(
     product: Map,
     inverse: Map,
     rhs: Floats,
     *,
-    directions: int,
     tolerance: float,
     rounds: int = 3,
     start: Floats | None = None,
@@ -31,10 +33,10 @@ def minimal_residual(
         The matrix and the approximate inverse.
     rhs
         (n,) load.
-    directions, rounds
-        Most steps before a restart, and number of starts.
     tolerance
         Residual over load at which to stop.
+    rounds
+        Most starts, each of at most `DIRECTIONS` steps.
     start
         Where to start, zero when not given; it may be of another size than the load where a
         solution has more than one form.
@@ -47,7 +49,7 @@ def minimal_residual(
         if found <= tolerance * size or found > 0.5 * last:
             break
         last = found
-        step = _round(product, inverse, rest, directions, tolerance * size)
+        step = _round(product, inverse, rest, tolerance * size)
         tried = x + step
         new = rhs - product(tried)
         if not float(np.linalg.norm(new)) < found:
@@ -56,13 +58,13 @@ def minimal_residual(
     return x
 
 
-def _round(product: Map, inverse: Map, rest: Floats, directions: int, goal: float) -> Floats:
+def _round(product: Map, inverse: Map, rest: Floats, goal: float) -> Floats:
     norm = float(np.linalg.norm(rest))
     basis: list[Floats] = [rest / norm]
     steps: list[Floats] = []
-    table = np.zeros((directions + 1, directions))
+    table = np.zeros((DIRECTIONS + 1, DIRECTIONS))
     answer: Floats = np.zeros(0)
-    for k in range(directions):
+    for k in range(DIRECTIONS):
         steps.append(inverse(basis[k]))
         image = product(steps[k])
         whole = float(np.linalg.norm(image))
