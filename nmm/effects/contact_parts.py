@@ -1,12 +1,12 @@
 """The parts of contact, as a scene and its formulation declare them."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from covers.approximation.manifold import Manifold
-from integration.arrays import Bools
+from integration.arrays import Bools, Ints
 from nmm.contact.bonds.consistent_bonds import consistent
 from nmm.contact.candidates.pairs import MISSING, Pairs
 from nmm.contact.candidates.partners import Partners
@@ -25,6 +25,7 @@ from nmm.interfaces.from_scene import interface_law
 
 if TYPE_CHECKING:
     from nmm.contact.laws.laid_under_stress import StressIn
+    from nmm.scene.actions import SupportTable
 
 # Distance, in tolerances of the cut, within which an edge lies on a crack.
 MOVED = 4.0
@@ -49,6 +50,7 @@ def contact_parts(setup: Setup) -> ContactParts:
         face_points=points,
         origin=setup.origin,
         whole_faces=means,
+        together=_together(setup),
     )
     edges, modulus = setup.model.cut.boundary, setup.model.modulus
     nodes = TraceSpace.of(partners.sides, edges, modulus, partners.welded) if means else None
@@ -145,11 +147,36 @@ def _pairs(setup: Setup) -> Pairs:
 
 def _held(setup: Setup) -> Bools:
     """Which bodies (B,) are fixed as a whole by a support."""
+    held: Bools = np.zeros(setup.model.manifold.n_bodies, dtype=bool)
+    for _, bodies in _holding(setup):  # a handful of supports
+        held[bodies] = True
+    return held
+
+
+def _together(setup: Setup) -> Ints:
+    """Return numbers (B,) that bodies share which cannot move apart.
+
+    They are glued pieces of one block, and bodies that supports hold, or move alike.
+    """
     manifold = setup.model.manifold
-    held: Bools = np.zeros(manifold.n_bodies, dtype=bool)
+    number = np.arange(manifold.n_bodies)
+    if piece_glue(setup.formulation.cover) is not None:
+        number[manifold.element_body] = manifold.element_region
+    ways: list[object] = []
+    for support, bodies in _holding(setup):  # a handful of supports
+        if support.field is None:
+            way = support.displacement, support.motion
+            if way not in ways:
+                ways.append(way)
+            number[bodies] = -1 - ways.index(way)
+    return number
+
+
+def _holding(setup: Setup) -> Iterator[tuple["SupportTable", Ints]]:
+    """Yield the supports that fix bodies as a whole, and these bodies, one for each element."""
+    manifold = setup.model.manifold
     for support in setup.scene.supports:  # a handful of supports
         if support.point is None and support.segment is None and len(set(support.fix)) == 2:
             regions = setup.regions(support.block)
             inside = slice(None) if regions is None else regions[manifold.element_region]
-            held[manifold.element_body[inside]] = True
-    return held
+            yield support, manifold.element_body[inside]

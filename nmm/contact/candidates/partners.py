@@ -46,6 +46,8 @@ class Partners:
     whole_faces
         Whether such faces count beyond the reach of the search
         (`nmm.contact.mortar.segments.faced`).
+    together
+        (B,) a number that bodies share which cannot move apart; None where each goes alone.
     origin
         (2,) where the axes lie in those of the scene (m), for messages.
     """
@@ -58,8 +60,9 @@ class Partners:
         face_points: int,
         origin: Floats,
         whole_faces: bool = False,
+        together: Ints | None = None,
     ) -> None:
-        self.sides = sides(model.manifold)
+        self.sides = sides(model.manifold, together)
         self.welded = WeldedVertices.of(model.cut.boundary, self.sides) if within_bodies else None
         self._pairs = pairs
         self._within_bodies, self._face_points = within_bodies, face_points

@@ -25,6 +25,8 @@ class Surface:
         (n,) body of each edge.
     next, previous
         (n,) the edges that follow and precede it in its ring.
+    together
+        (n,) a number that bodies share which cannot move apart; None where each goes alone.
     """
 
     start: Floats
@@ -32,6 +34,12 @@ class Surface:
     body: Ints
     next: Ints
     previous: Ints
+    together: Ints | None = None
+
+    @property
+    def moves(self) -> Ints:
+        """(n,) numbers of what moves as one: ``together``, or the bodies."""
+        return self.body if self.together is None else self.together
 
     def __len__(self) -> int:
         return len(self.body)

@@ -23,11 +23,15 @@ _UPRIGHT = np.zeros(0)
 
 @dataclass(frozen=True)
 class Sides:
-    """Both ends of all boundary edges as material points."""
+    """Both ends of all boundary edges as material points.
+
+    ``together`` (n,) is that of `Surface`.
+    """
 
     manifold: Manifold
     start: MaterialPoints
     end: MaterialPoints
+    together: Ints | None = None
 
     def surface(self, frames: Frames, deformation: Floats) -> Surface:
         """Return the edges where they are now."""
@@ -50,6 +54,7 @@ class Sides:
             body=edges.body,
             next=edges.next,
             previous=edges.previous,
+            together=self.together,
         )
 
     @cached_property
@@ -102,11 +107,12 @@ class Sides:
         )
 
 
-def sides(manifold: Manifold) -> Sides:
-    """Return the sides of a manifold's boundary edges."""
+def sides(manifold: Manifold, together: Ints | None = None) -> Sides:
+    """Return the sides of a manifold's boundary edges; ``together`` (B,) is of bodies."""
     edges = manifold.boundary
     return Sides(
         manifold,
         material_points(manifold, edges.element, edges.start),
         material_points(manifold, edges.element, edges.end),
+        None if together is None else together[edges.body],
     )

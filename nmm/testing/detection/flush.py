@@ -116,24 +116,34 @@ def _meet(surface: Surface, at: Ints, edge: Ints, corner: Ints, rules: Rules) ->
 
 
 def beside_kinks(
-    surface: Surface, covers: Covers, body: Ints, e: Ints, end: Bools, rules: Rules
+    surface: Surface, covers: Covers, moves: Ints, e: Ints, end: Bools, rules: Rules
 ) -> Ints:
-    """Edges (m,) of a body but ``body`` that make a kink with an ``end`` of edges, or -1."""
+    """Edges (m,) that make a kink with an ``end`` of edges, of what moves not as ``moves``; or -1.
+
+    Pieces of one body may lie between.
+    """
     at = np.where(end, surface.next[e], e)
-    x = np.where(end, covers.own[at], covers.before[at])
-    corner = np.where(end, surface.next[x], x)
-    third = (x >= 0) & (surface.body[x] != body) & (surface.body[x] != surface.body[e])
-    third &= _meet(surface, at, x, corner, rules)
-    other = np.where(end, corner, surface.previous[corner])
+    other, last = np.full(len(e), -1), np.full(len(e), -1)
+    going, broken = np.ones(len(e), dtype=bool), np.zeros(len(e), dtype=bool)
+    for _ in range(MERGED_BODIES):
+        x = np.where(end, covers.own[at], covers.before[at])
+        going = going & (x >= 0) & (surface.moves[x] != moves)
+        going &= surface.body[x] != surface.body[e]
+        going &= (last < 0) | (surface.moves[x] == surface.moves[last])
+        corner = np.where(end, surface.next[x], x)
+        broken |= going & ~_meet(surface, at, x, corner, rules)
+        at, last = np.where(going, corner, at), np.where(going, x, last)
+        other = np.where(going, np.where(end, corner, surface.previous[corner]), other)
     turn = cross(surface.direction[other], surface.direction[e])
-    return np.where(third & (np.where(end, -turn, turn) < -rules.sine), other, -1)
+    turned = np.where(end, -turn, turn) < -rules.sine
+    return np.where((other >= 0) & ~broken & turned, other, -1)
 
 
 def _depth(
-    surface: Surface, covers: Covers, body: Ints, e: Ints, end: Bools, rules: Rules
+    surface: Surface, covers: Covers, moves: Ints, e: Ints, end: Bools, rules: Rules
 ) -> Floats:
     """Angles (m,) of the kinks that `beside_kinks` finds (rad), or 0."""
-    other = beside_kinks(surface, covers, body, e, end, rules)
+    other = beside_kinks(surface, covers, moves, e, end, rules)
     ways = surface.direction[other], surface.direction[e]
     return np.where(other >= 0, np.arctan2(np.abs(cross(*ways)), dot(*ways)), 0.0)
 
@@ -145,7 +155,7 @@ def within_kinks(
     found = np.zeros(len(e), dtype=bool)
     for end, beside in ((True, surface.next), (False, surface.previous)):
         ends = np.full(len(e), end)
-        kink = beside_kinks(surface, covers, surface.body[v], e, ends, rules) >= 0
+        kink = beside_kinks(surface, covers, surface.moves[v], e, ends, rules) >= 0
         found |= kink & (side == beside[e])
     return found
 
@@ -161,13 +171,13 @@ def leaves(
     own, before = surface.direction[v], -surface.direction[surface.previous[v]]
     alone = _outward(surface, e, own, before, rules)
     deep = [
-        _depth(surface, covers, surface.body[e], side, np.full(len(v), end), rules)
+        _depth(surface, covers, surface.moves[e], side, np.full(len(v), end), rules)
         for side, end in ((v, False), (surface.previous[v], True))
     ]
     further = along > 0.5 * surface.length[e]
-    reentrant = np.maximum(*deep) > _depth(surface, covers, surface.body[v], e, further, rules)
+    reentrant = np.maximum(*deep) > _depth(surface, covers, surface.moves[v], e, further, rules)
     reentrant &= (covers.own[v] != e) & (covers.before[v] != e)
-    other = beside_kinks(surface, covers, surface.body[v], e, further, rules)
+    other = beside_kinks(surface, covers, surface.moves[v], e, further, rules)
     mate = np.where(other >= 0, surface.body[other], -1)
     merged = rays(surface, covers, v, surface.body[e], mate, rules)
     return alone & ~reentrant & _outward(surface, e, *merged, rules)
@@ -196,7 +206,7 @@ def covered_kinks(
     corner = np.where(end, surface.next[e], e)
     x = np.where(end, covers.before[corner], covers.own[e])
     kink = ~convex_vertices(surface, rules)[corner]
-    kink |= beside_kinks(surface, covers, surface.body[v], e, end, rules) >= 0
+    kink |= beside_kinks(surface, covers, surface.moves[v], e, end, rules) >= 0
     return np.asarray(kink & (x >= 0) & (surface.body[x] != surface.body[v]))
 
 

@@ -51,8 +51,8 @@ def find_by_arrays(
     found = contacts_of(surface, *parts, rules)
     # In a kink of two a corner stands for one edge alone.
     covers = find_covers(surface, vertex, edge, along, gap, rules)
-    body, ends = surface.body[found.vertex], found.parameter > 0.5
-    apart = beside_kinks(surface, covers, body, found.edge, ends, rules) >= 0
+    moves, ends = surface.moves[found.vertex], found.parameter > 0.5
+    apart = beside_kinks(surface, covers, moves, found.edge, ends, rules) >= 0
     return replace(found, kind=np.where(apart, VERTEX_EDGE, found.kind))
 
 

@@ -5,7 +5,7 @@ import math
 from nmm.compiled import compiled
 from nmm.contact.detection.narrow.edges import dot, thinner
 from nmm.contact.detection.narrow.tables import Shape
-from nmm.contact.detection.tolerances import Rules
+from nmm.contact.detection.tolerances import MERGED_BODIES, Rules
 
 
 @compiled
@@ -29,16 +29,23 @@ def corner_beside(shape: Shape, at: int, x: int, forward: bool, rules: Rules) ->
 def beside_kink(shape: Shape, v: int, e: int, end: int, rules: Rules) -> int:
     """Return the edge of a third body that makes a kink with an end of an edge, beside it; or -1.
 
-    Both bodies are flush there, as slope and flat side by side are.
+    Both bodies are flush there, as slope and flat side by side are. Pieces of the third body lie
+    between; what moves as one with the vertex is no third body.
     """
     at = e if end == 0 else shape[e].next
-    x: int = shape[at].before if end == 0 else shape[at].own
-    if x < 0 or shape[x].body == shape[v].body or shape[x].body == shape[e].body:
+    other, last = -1, -1
+    for _ in range(MERGED_BODIES):
+        x: int = shape[at].before if end == 0 else shape[at].own
+        if x < 0 or shape[x].moves == shape[v].moves or shape[x].body == shape[e].body:
+            break
+        if last >= 0 and shape[x].moves != shape[last].moves:
+            break
+        at = corner_beside(shape, at, x, end == 1, rules)
+        if at < 0:
+            return -1
+        other, last = shape[at].previous if end == 0 else at, x
+    if other < 0:
         return -1
-    corner = corner_beside(shape, at, x, end == 1, rules)
-    if corner < 0:
-        return -1
-    other: int = shape[corner].previous if end == 0 else corner
     turn = shape[other].tx * shape[e].ty - shape[other].ty * shape[e].tx
     return other if (turn if end == 0 else -turn) < -rules.sine else -1
 
@@ -78,7 +85,8 @@ def in_kink_of_two(shape: Shape, v: int, e: int, further: int, rules: Rules) -> 
     """Whether a vertex lies in a kink of its body and a flush one, and on the edge by no side.
 
     As a reentrant vertex it then bounds no way: what stands in the kink slides past it. Where the
-    edge ends (``further`` or not) in a kink, too, that is so of the vertex in the deeper one.
+    edge ends (``further`` or not) in a kink, too, that is so of the vertex in the deeper one. No
+    edge does so with a body that moves as one with that of the vertex, as if supports hold both.
     """
     if shape[v].own == e or shape[v].before == e:
         return False

@@ -77,6 +77,7 @@ def _contacts(
     start: Floats,
     end: Floats,
     body: Ints,
+    moves: Ints,
     following: Ints,
     previous: Ints,
     vertex: Ints,
@@ -92,7 +93,7 @@ def _contacts(
     if not rising:
         vertex, edge = vertex[:0], edge[:0]
         offset[:] = 0
-    shape = shape_of(start, end, body, following, previous, rules.sine)
+    shape = shape_of(start, end, body, moves, following, previous, rules.sine)
     rows, final, s, gap = select(shape, vertex, edge, offset, last, motion, rules)
     return rising, describe(shape, vertex, edge, rows, final, s, gap, rules)
 
@@ -102,7 +103,7 @@ def find(
 ) -> Columns:
     """Columns of `contacts.Contacts`; candidates in any order, ``last`` keys in any order."""
     start, end = np.ascontiguousarray(surface.start), np.ascontiguousarray(surface.end)
-    rings = start, end, surface.body, surface.next, surface.previous
+    rings = start, end, surface.body, surface.moves, surface.next, surface.previous
     rising, columns = _contacts(*rings, vertex, edge, last, motion, rules)
     if not rising:
         key = np.unique(vertex * len(start) + edge)

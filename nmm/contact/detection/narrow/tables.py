@@ -29,10 +29,10 @@ class EdgesOfVertex(NamedTuple):
     gap: Floats
 
 
-# Of an edge start, end and unit direction, its length and the thickness of its body; that body,
-# neighbours in the ring, whether its first vertex is convex, and the flush covers of the two edges
-# there (`edges.cover`).
-REAL, LINK = "sx sy ex ey tx ty length thick", "body next previous convex own before"
+# Of an edge start, end and unit direction, its length and the thickness of its body; that body and
+# what moves as one with it, neighbours in the ring, whether its first vertex is convex, and the
+# flush covers of the two edges there (`edges.cover`).
+REAL, LINK = "sx sy ex ey tx ty length thick", "body moves next previous convex own before"
 EDGE = np.dtype([(name, float) for name in REAL.split()] + [(name, int) for name in LINK.split()])
 Shape = npt.NDArray[Any]
 """All that is known of edges (n,) and their first vertices, a record `EDGE` each."""
@@ -61,7 +61,13 @@ def thickness_of(start: Floats, end: Floats, body: Ints) -> Floats:
 
 @compiled
 def shape_of(
-    start: Floats, end: Floats, body: Ints, following: Ints, previous: Ints, sine: float
+    start: Floats,
+    end: Floats,
+    body: Ints,
+    moves: Ints,
+    following: Ints,
+    previous: Ints,
+    sine: float,
 ) -> Shape:
     """Directions, lengths, convexity of vertices and thickness of bodies."""
     shape, thickness = np.zeros(len(start), EDGE), thickness_of(start, end, body)
@@ -75,7 +81,7 @@ def shape_of(
         if size > 0.0:
             edge.tx, edge.ty = dx / size, dy / size
         edge.body, edge.next, edge.previous = body[e], following[e], previous[e]
-        edge.own, edge.before = -1, -1
+        edge.moves, edge.own, edge.before = moves[e], -1, -1
     for e in range(len(start)):
         edge, last = shape[e], shape[previous[e]]
         turn = last.tx * edge.ty - last.ty * edge.tx

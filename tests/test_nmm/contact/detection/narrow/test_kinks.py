@@ -1,5 +1,6 @@
 """Corners in kinks of two bodies side by side: both edges bound their way, and no other does."""
 
+from dataclasses import replace
 from itertools import permutations
 
 import numpy as np
@@ -74,6 +75,27 @@ def test_a_wedge_in_a_kink_meets_slope_and_flat_and_slides_over_their_corners(
     normals = (of_wedge.normal @ axes.T).round(9)
     assert (normals == [0, 1]).all(axis=1).sum() == 1
     # What does not lie along the wedge's lower face bounds no way.
+    assert (np.abs(on_wedge.normal @ axes.T + 0.5**0.5) < 1e-9).all()
+
+
+UPPER, LOWER = [[-4, 4], [-4, 0], [0, 0]], [[-4, 0], [-4, -2], [0, -2], [0, 0]]
+
+
+@pytest.mark.parametrize("find", [find_contacts, find_by_arrays])
+@pytest.mark.parametrize("pieces", [[SLOPE], [UPPER, LOWER], [LOWER, UPPER]])
+@pytest.mark.parametrize("lean", [0.0, 2.0, 5.0])
+@pytest.mark.parametrize("turn", [0.0, 0.7])
+def test_of_bodies_that_move_as_one_the_kink_bounds_a_wedge_that_leans_however_far(
+    turn, lean, pieces, find
+):
+    """The slope is inclined as the side that is 2 m off the vertical at its top."""
+    surface, axes = placed([np.add(WEDGE, [[0, 0], [lean, 0], [0, 0]]), FLAT, *pieces], turn)
+    surface = replace(surface, together=np.minimum(surface.body, 1))
+    contacts = find(surface, *NeighbourList(4e-3).update(surface), 2e-3)
+    of_wedge = contacts.take(surface.body[contacts.vertex] == 0)
+    flat = (np.abs(of_wedge.normal @ axes.T - [0, 1]) < 1e-9).all(axis=1)
+    assert flat.sum() == 1
+    on_wedge = contacts.take(contacts.body == 0)
     assert (np.abs(on_wedge.normal @ axes.T + 0.5**0.5) < 1e-9).all()
 
 
