@@ -68,7 +68,10 @@ class StepFriction:
             np.bincount(at, value, len(pairs))
             for at, value in ((mine, self.limit), (its, then.force))
         )
-        late = np.bincount(mine, self.limit * ~self.from_start, len(pairs))
-        # Forces of rounding may be all that is left of a pair: their shares stay below one.
-        share = np.divide(then.force, end[its], out=np.zeros(len(its)), where=end[its] > 0)
-        return share * limit[its], (late < limit / 2)[its] | (limit == 0)[its]
+        late = np.bincount(mine, np.where(self.from_start, 0.0, self.limit), len(pairs))
+        # Forces of rounding may be all that is left of a pair: their shares stay below one. Limits
+        # of whole bonds are infinite, and a share of nothing is nothing.
+        none = np.zeros(len(its))
+        share = np.divide(then.force, end[its], out=none.copy(), where=end[its] > 0)
+        shared = np.multiply(share, limit[its], out=none, where=share > 0)
+        return shared, (late < limit / 2)[its] | (limit == 0)[its]

@@ -1,5 +1,7 @@
 """Friction of a corrected step of statics: the force that lasts on the whole slip."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -40,3 +42,12 @@ def test_forces_of_rounding_share_the_friction_of_their_bodies() -> None:
     first = friction([1, 2], limit=[1.0, 2.0], force=[1.0, 2.0], slid=[0.0, 0.0])
     then = friction([3, 4], force=[1e-320, 0.0], slid=[2.0, 0.0])
     assert first.corrected(then).taken == pytest.approx(3.0, rel=1e-14)
+
+
+def test_bonds_without_a_limit_take_nothing_where_a_correction_finds_no_force() -> None:
+    # 3 N on 2 m at the contact that has the force.
+    whole = friction([1, 2], limit=[np.inf, 2.0], force=[1.0, 2.0], slid=[0.0, 0.0])
+    whole = replace(whole, from_start=np.zeros(2, dtype=bool))
+    then = friction([3, 4], force=[0.0, 3.0], slid=[0.0, 2.0])
+    with np.errstate(invalid="raise"):
+        assert whole.corrected(then).taken == pytest.approx(6.0, rel=1e-14)
