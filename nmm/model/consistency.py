@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from nmm import capacity
 from nmm.errors import Fault, FormulationError, SceneError
+from nmm.results.quantity_names import ENERGY, parted
 from nmm.results.summary import Summary
 from nmm.scene.faults import suggestion
 
@@ -164,10 +165,10 @@ def _chosen(scene: "Scene", formulation: "Formulation") -> Iterator[Fault]:
 
 
 def _references(scene: "Scene") -> Iterator[Fault]:
-    known = known_quantities(scene) if scene.references else []
+    known = [ENERGY, *known_quantities(scene)] if scene.references else []
     for index, item in enumerate(scene.references):
-        name = item.quantity
-        if name not in known and not may_have_column(scene, name, known):
+        name, sought = item.quantity, parted(item.quantity)[1]
+        if sought not in known and not may_have_column(scene, sought, known):
             place = scene.source.place("reference", index, "quantity")
-            expected = "a number of the summary or a column of the history"
+            expected = "a number of the summary or a column of the history, or max: or min: of one"
             yield Fault(place, f'"{name}"', expected, suggestion(name, known))

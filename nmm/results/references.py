@@ -8,6 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.results.quantity_names import REDUCED, parted
 from nmm.results.summary import Summary
 
 
@@ -16,7 +17,7 @@ class Answer(Protocol):
 
     @property
     def quantity(self) -> str:
-        """Field of the summary, or history column whose last value counts."""
+        """Name of a number of a run (`nmm.results.quantity_names`)."""
 
     @property
     def value(self) -> float:
@@ -84,7 +85,8 @@ def _found(summary: Summary, history: Mapping[str, Floats], quantity: str) -> fl
     value = getattr(summary, quantity, None)
     if isinstance(value, int | float):
         return float(value)
-    column = history.get(quantity)
+    reduction, name = parted(quantity)
+    column = history.get(name)
     if column is None or not np.isfinite(column).any():
         return None
-    return float(column[np.isfinite(column)][-1])
+    return REDUCED[reduction](column[np.isfinite(column)])

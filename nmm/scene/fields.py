@@ -185,6 +185,10 @@ Ring = Annotated[
 ]
 Line = Annotated[tuple[Point, ...], BeforeValidator(_listed), Field(min_length=2)]
 History = Annotated[tuple[tuple[Number, Number], ...], BeforeValidator(_listed)]
+# Pairs of a time, in s where it is a number, and a value.
+Samples = Annotated[
+    tuple[tuple[Annotated[float, quantity("s")], Number], ...], BeforeValidator(_listed)
+]
 
 # Characters with another meaning in a terminal, a table of numbers or a file name: control and
 # formatting characters, line ends, brackets, quotes, slashes.

@@ -21,7 +21,9 @@ class ReferenceTable(Frozen):
     """An answer from elsewhere that a result is compared with."""
 
     quantity: Text = Field(
-        description="a number of summary.json or a column of history.csv", examples=["failure_load"]
+        description="a number of summary.json or a column of history.csv, max: or min: of one, or "
+        '"energy", the elastic energy at the end',
+        examples=["failure_load"],
     )
     value: AnyQuantity = Field(description="a number in SI", examples=[9124.0])
     tolerance: Number = Field(ge=0, description="a relative tolerance, >= 0", examples=[0.02])

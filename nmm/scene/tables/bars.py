@@ -21,6 +21,7 @@ from nmm.scene.fields import (
 from nmm.scene.tables.members import TwoEndedTable
 
 Area = Annotated[float, quantity("m^2")]
+BendingStiffness = Annotated[float, quantity("N m^2")]
 
 
 class BondTable(Frozen):
@@ -62,11 +63,11 @@ class DowelTable(Frozen):
         "bedded in",
         examples=["50 MPa"],
     )
-    bending_stiffness: Number | None = Field(
+    bending_stiffness: BendingStiffness | None = Field(
         default=None,
         gt=0,
         description="E I of a bar in N m2, > 0; that of a round bar of the diameter if not given",
-        examples=[3800.0],
+        examples=["3.8 kN m^2"],
     )
     yield_force: Force | None = Field(
         default=None,

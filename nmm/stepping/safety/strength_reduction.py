@@ -17,6 +17,7 @@ from nmm.progress import Progress
 from nmm.results.safety import Safety
 from nmm.results.sink import MemorySink
 from nmm.stepping.bounds.safety_bound import FINE, safety_bound
+from nmm.stepping.bounds.static_theorem import CarriedLoad
 from nmm.stepping.drive.verdict import COLLAPSED, CONVERGED
 from nmm.stepping.prepare import prepare
 from nmm.stepping.safety.tried_factors import TriedFactors
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
 Bound = Callable[[float, float], float | None]
 """From the highest factor and the width of the bracket to one that fails; None is none shown."""
 
-SHOWN = "no contact forces within friction and strength carry the loads (static theorem)"
 FRICTION = ("friction_angle", "residual_friction_angle")
 # While no bracket is known factors go up and down by this.
 STRIDE = 2.0
@@ -42,6 +42,7 @@ STRIDE = 2.0
 class FactorTried:
     """A run with strengths over a factor: its status, and its verdict in words.
 
+    A factor that the static theorem shows to fail, without a run, has no verdict.
     ``bound`` seeks a factor that fails from where the run ended (`safety_bound`).
     """
 
@@ -134,16 +135,17 @@ def reduced(
     factors = _Factors(scene, formulation, progress, known, at_once=not _grows(scene))
     low, high = bracket(factors.run, table)
     shown = high is None or high.status == COLLAPSED
+    last = factors.tried[-1].factor if low is None else low.factor
+    at = prepare(weakened(scene, last), formulation)
+    proven = CarriedLoad(None, 1.0, members=bool(at.stepper.plan.having("resistance")))
     safety = Safety(
         None if low is None else low.factor,
         None if high is None else high.factor,
         shown,
-        "" if high is None else high.sentence,
+        "" if high is None else high.sentence or proven.sentence,
         len(factors.tried),
         min((one for one in known.bounds if one is not None), default=None),
     )
-    last = factors.tried[-1].factor if low is None else low.factor
-    at = prepare(weakened(scene, last), formulation)
     at.stepper.seconds["strength reduction"] = (
         perf_counter() - begun - sum(at.stepper.seconds.values())
     )
@@ -175,7 +177,7 @@ def bracket(
         most = table.highest if high is None else high.factor
         fails = low.bound(most, table.tolerance)
         if fails is not None:
-            high = FactorTried(fails, COLLAPSED, SHOWN)
+            high = FactorTried(fails, COLLAPSED, "")
             below = fails - (1 - FINE) * table.tolerance
             if below > low.factor:
                 low, high = _sorted(run(below), low, high)

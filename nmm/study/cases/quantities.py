@@ -1,8 +1,8 @@
 """Numbers read off a run by name, the same for every formulation.
 
-Names: ``failure_load``, ``failure_factor`` and every number of the summary; any column of the
-history, at its end (``monitor:tip:uy``) or as ``max:column`` / ``min:column``; ``energy``, the
-elastic energy at the end.
+Names (`nmm.results.quantity_names`): ``failure_load``, ``failure_factor`` and every number of the
+summary; any column of the history, at its end (``monitor:tip:uy``) or as ``max:column`` /
+``min:column``; ``energy``, the elastic energy at the end.
 """
 
 import math
@@ -14,6 +14,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.errors import Fault, NmmError
+from nmm.results.quantity_names import ENERGY, REDUCED, parted
 from nmm.results.summary import Summary
 from nmm.scene.faults import suggestion
 
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     from nmm.scene import Scene
 
 _NUMBERS = {item.name for item in fields(Summary)}
-_REDUCED = {"max": lambda column: column.max(), "min": lambda column: column.min()}
 
 
 class Measured(Protocol):
@@ -44,15 +44,11 @@ def quantity(run: Measured, name: str) -> float:
     NmmError
         When no run has a quantity of that name.
     """
-    reduction, _, column = name.partition(":")
-    if reduction in _REDUCED:
-        return float(_REDUCED[reduction](_column(run, column)))
-    if name == "energy":
-        return float(_column(run, "strain_energy")[-1])
+    reduction, column = parted(name)
     value = getattr(run.summary, name) if name in _NUMBERS else name
     if value is None or isinstance(value, int | float):
         return math.nan if value is None else float(value)
-    return float(_column(run, name)[-1])
+    return REDUCED[reduction](_column(run, column))
 
 
 def _column(run: Measured, name: str) -> Floats:
@@ -79,9 +75,7 @@ def check_quantity_name(scene: "Scene", name: str) -> None:
     """
     from nmm.model.consistency import known_quantities, may_have_column
 
-    known = list(dict.fromkeys(["energy", *known_quantities(scene)]))
-    reduction, _, column = name.partition(":")
-    sought = column if reduction in _REDUCED else name
+    known, sought = [ENERGY, *known_quantities(scene)], parted(name)[1]
     if sought not in known and not may_have_column(scene, sought, known):
         expected = "a number of the summary or a column of the history, or max: or min: of one"
         raise NmmError(Fault("quantity", f'"{name}"', expected, suggestion(name, known)))

@@ -62,8 +62,11 @@ def _energy(one: Compared) -> float | None:
 
 
 def _largest_load(one: Compared) -> float | None:
-    factors = np.zeros(0) if one.run is None else one.run.history["load_factor"]
-    return float(np.nanmax(factors)) if len(factors) and np.ptp(factors) else None
+    """Of loads that grow: in statics, where one increment may bring them, or on a path."""
+    if one.run is None or not len(factors := one.run.history["load_factor"]):
+        return None
+    grow = np.ptp(factors) > 0 or not one.in_time
+    return float(np.nanmax(factors)) if grow else None
 
 
 def _released(one: Compared) -> float | None:

@@ -22,7 +22,8 @@ LONG = 20.0
 class Compared:
     """A case and what it came to; ``run`` is None when it could not be run.
 
-    ``method`` is its cover with the degree, by which every figure gives it one colour.
+    ``method`` is its cover with the degree, by which every figure gives it one colour; ``in_time``
+    says whether time passes in its scene.
     """
 
     name: str
@@ -33,6 +34,7 @@ class Compared:
     seconds: float
     memory: int | None
     fault: str = ""
+    in_time: bool = False
 
 
 @dataclass(frozen=True)
@@ -100,7 +102,8 @@ def _compared(case: StudyCase, grid: Raster, memory: bool) -> Compared:
             done, seconds = _timed(case)
         peak = added_memory(case) if memory else None
         seen = fields(done, grid.points)
-        return Compared(case.name, family, method, done, seen, seconds, peak)
+        passes = case.scene.in_time
+        return Compared(case.name, family, method, done, seen, seconds, peak, in_time=passes)
     # Whatever breaks in one case is told on the page beside the others.
     except Exception as fault:
         told = in_a_line(fault)

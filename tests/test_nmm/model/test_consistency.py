@@ -11,9 +11,11 @@ from nmm.cli.app import app
 from nmm.formulation import Formulation, parse_formulation
 from nmm.geometry import regions
 from nmm.model.consistency import known_quantities
+from nmm.results.references import compare
 from nmm.scene import parse_scene
 from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
 from nmm.stepping.prepare import prepare
+from nmm.study.cases.quantities import quantity
 
 STEP = "[formulation.integrator]\nstep = {}\n"
 
@@ -113,6 +115,18 @@ def test_check_finds_what_a_run_refuses(projectile, more, said, tmp_path):
     assert result.exit_code == 1
     assert said in result.output
     assert "a.toml:" in result.output  # and in which line
+
+
+def test_references_take_the_names_that_studies_take(projectile):
+    answer = '[[reference]]\nquantity = "{}"\nvalue = 0\ntolerance = 1\nsource = "x"\n'
+    names = ("energy", "max:kinetic_energy", "min:kinetic_energy", "kinetic_energy")
+    scene = parse_scene(projectile + "".join(map(answer.format, names)) + STEP.format(0.5))
+    run = nmm.run(scene)
+    found = [one.found for one in compare(run.summary, run.history, scene.references)]
+    assert found == [quantity(run, name) for name in names]
+    # Of a fall from 4 m/s, seen after 0.5 and 1 s; the spin bulges the square by 5e-4.
+    middle, end = (500 * (9 + (4 - 9.81 * time) ** 2 + 4 / 6) for time in (0.5, 1.0))
+    assert found[1:] == pytest.approx([end, middle, end], rel=1e-3)
 
 
 HELD = '[[supports]]\nname = "{}"\n{}\nfix = ["{}"]\ndisplacement = [{}, 0]\n'

@@ -8,7 +8,7 @@ from typing import Literal
 from pydantic import Field, model_validator
 
 from nmm.errors import shown
-from nmm.scene.fields import Frozen, History, Number, Text, Time, fault
+from nmm.scene.fields import Frozen, Number, Samples, Text, Time, fault
 from nmm.scene.units import UnitError, convert
 
 UNITS = {"acceleration": "m/s^2", "velocity": "m/s", "displacement": "m"}
@@ -27,8 +27,10 @@ class RecordTable(Frozen):
     file: Text | None = Field(
         default=None, description="a file of numbers, beside the scene", examples=["kobe.at2"]
     )
-    samples: History | None = Field(
-        default=None, description="pairs [t, value] with t increasing", examples=[[[0, 0], [1, 2]]]
+    samples: Samples | None = Field(
+        default=None,
+        description="pairs [t, value] with t increasing, a time in s",
+        examples=[[[0, 0], [1, 2]]],
     )
     values: tuple[Number, ...] | None = Field(
         default=None, description="a list of values, with a step", examples=[[0, 0.6, 1.8, 0]]

@@ -40,6 +40,23 @@ def test_a_block_on_an_incline_is_as_safe_as_its_closed_form(slope, friction, co
     assert stored["factor_of_safety"] == found.factor_of_safety
 
 
+def test_the_theorem_tells_of_members_that_hold_a_block_beside_friction():
+    """A tie that yields at T is no weaker: W cos(b) tan(phi) / F + T = W sin(b)."""
+    slope, friction, tie = np.radians(30), np.radians(25), 2e3
+    along = np.array([np.cos(slope), np.sin(slope)])
+    middle = 2 * along + 0.25 * np.array([-along[1], along[0]])
+    text = block_on_incline(30, 25, search="lowest = 0.5\nhighest = 4.0") + (
+        f'[[springs]]\nname = "tie"\npoints = [{middle.tolist()}, {(middle + along).tolist()}]\n'
+        f'blocks = ["block", "ground"]\nstiffness = "1 GN/m"\nyield_force = {tie}\n'
+    )
+    found, weight = nmm.run(parse_scene(text)).summary, 2000 * 9.81 * 0.5
+    expected = weight * np.cos(slope) * np.tan(friction) / (weight * np.sin(slope) - tie)
+    # The block shortens by 1e-5, and its joint with it.
+    assert found.factor_of_safety <= expected <= found.factor_that_fails * (1 + 1e-4)
+    said = "no contact forces within friction and strength and forces of members within theirs"
+    assert said in found.sentence
+
+
 def test_a_scene_that_holds_at_the_highest_factor_says_so():
     found = nmm.run(incline(10, 40, highest=1.5)).summary
     assert found.factor_of_safety == 1.5

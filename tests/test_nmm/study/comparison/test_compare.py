@@ -89,6 +89,8 @@ def test_the_page_holds_table_differences_and_faults(bar, tmp_path):
     # energy of uniform tension, sigma^2 / (2 E) times the area
     energy = next(line for line in page.splitlines() if line.startswith("| elastic energy"))
     assert [float(cell) for cell in energy.split("|")[2:4]] == pytest.approx([2e-6] * 2, rel=1e-2)
+    # All of the load in one increment.
+    assert "| largest load factor | 1 | 1 | - |" in page
 
 
 def test_the_verb_writes_the_page(tmp_path, pulled):

@@ -137,3 +137,8 @@ def test_a_motion_needs_its_record_and_time(tmp_path):
 
 def test_a_record_of_g_is_in_standard_gravity():
     assert RecordTable(values=[0, 1], step=1, unit="g").times_and_values[1] == [0, 9.80665]
+
+
+def test_samples_may_have_times_with_a_unit():
+    record = RecordTable.model_validate({"samples": [[0, 0], ["0.5 h", 1], ["36 min", 0]]})
+    assert [time for time, _ in record.samples] == [0.0, 1800.0, 2160.0]
