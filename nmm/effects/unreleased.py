@@ -174,7 +174,7 @@ def _balancing(change: "Change", at: Reactions, weight: Floats, force: Floats) -
         raise FormulationError(
             "[[stages]] release: forces at the faces that blocks left miss "
             f"{missed / np.linalg.norm(force[touched]):.1e} of what is out of balance: expected at "
-            f"most {MISSED:.0e}: name bonded interfaces or contact, and hold blocks at these "
-            "faces by nothing else"
+            f"most {MISSED:.0e}: name bonded interfaces or contact, hold blocks at these faces by "
+            'nothing else, and bond them by springs ([glue] method, [contact] bonds = "spring")'
         )
     return np.asarray((root * found).reshape(-1, 2))

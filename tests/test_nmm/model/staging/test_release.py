@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import nmm
-from nmm.errors import GeometryError, SceneError
+from nmm.errors import FormulationError, GeometryError, SceneError
 from nmm.formulation import Formulation
 from nmm.scene.read import parse_scene
 from nmm.testing.scenes import STACKED
@@ -30,8 +30,8 @@ GLUED = TOUCHING.replace("[contact]\n", "").replace("angle = 0.5", "angle = 0.5\
 QUADS = {"type": "quads", "size": 0.5, "degree": 1}
 
 
-def run(text, cover=QUADS, increment=0.5):
-    table = {"cover": cover, "loading": {"increment": increment}}
+def run(text, cover=QUADS, increment=0.5, **more):
+    table = {"cover": cover, "loading": {"increment": increment}, **more}
     return nmm.run(parse_scene(text, "scene.toml"), Formulation.model_validate(table))
 
 
@@ -150,3 +150,22 @@ vertices = [[0, 1], [1, 1], [1, 2], [0, 2]]
 def test_the_reference_of_the_lined_tunnel_is_that_of_its_displacements():
     # From Lame's displacements of ring and ground, by another way: 1628213.58 Pa.
     assert ring_pressure() == pytest.approx(1628213.58, rel=1e-8)
+
+
+def test_half_of_what_a_pinned_block_exerted_is_half_of_the_way_on_springs():
+    """Linear: glued by terms, the forces that its pin and load leave at the faces are refused."""
+    held = (
+        '[[supports]]\nname = "pin"\npoint = [0.75, 1.5]\nblock = "upper"\nfix = ["x", "y"]\n'
+        '[[loads]]\nname = "push"\nkind = "point"\npoint = [0.25, 1.25]\nblock = "upper"\n'
+        "force = [5e4, -3e4]\n"
+    )
+    text = GLUED.replace("[[stages]]", held + "[[stages]]", 1)
+    text += '[[stages]]\nname = "half"\nremove = ["upper"]\nrelease = 0.5\n'
+    text += '[[stages]]\nname = "rest"\nrelease = 1.0\n'
+    with pytest.raises(FormulationError, match="bond them by springs"):
+        run(text)
+    history = run(text, glue={"method": "spring"}).history
+    before, half, after = settled(history)
+    # Stages end at 1e-10 of their forces.
+    assert half == pytest.approx((before + after) / 2, rel=1e-8)
+    assert abs(after - before) > 0.1 * abs(before)
