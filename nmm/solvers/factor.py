@@ -28,6 +28,8 @@ functions leave up to 1e-7, which audits tell."""
 PIVOT = 1e-15
 """Part of the diagonal added to every matrix: what rounding changes anyway. It keeps a pivot of a
 rank-deficient matrix from being exactly zero, over which decompositions trip."""
+SETTLED = 4 * PIVOT
+"""Largest residual for each unit of the solution that is that of `PIVOT`."""
 FLOOR = 1e-14
 """Residual that rounding leaves for each unit of the solution."""
 SLOW = 1e-10
@@ -217,6 +219,9 @@ class Factor:
             if stays or rest < max(1e-15, tolerance) or turn == self.solver.refinements:
                 break
             x = x + self.apply(residual)
+            if self._settled(rest, best, size):
+                best = x
+                break
         if self.solver.shift and rest > max(SLOW, tolerance):
             # Directions about as soft as the shift: refinement would take hundreds of turns.
             tried, left = self._minimised(load, size, tolerance)
@@ -224,6 +229,17 @@ class Factor:
                 best, rest = tried, left
         growth = float(np.abs(best / self.scale).max() / np.abs(load).max())
         return best, rest, growth
+
+    def _settled(self, rest: float, x: Floats, size: float) -> bool:
+        """Whether one correction takes a residual to rounding, so that it need not be judged.
+
+        The first residual is ``PIVOT |x|``. A correction leaves at most the part ``PIVOT k`` of
+        it at a condition of ``k``, which is less than rounding unless the solution outgrows its
+        load: that shows in the residual, too.
+        """
+        if self.solver.shift or rest > ACCEPTED:
+            return False
+        return rest * size <= SETTLED * norm(x / self.scale)
 
     def _minimised(self, load: Floats, size: float, tolerance: float) -> tuple[Floats, float]:
         """Solution with the shift taken out by minimal residuals, and its residual."""

@@ -9,6 +9,7 @@ from scipy.sparse import csc_array, eye_array
 import nmm
 from integration.arrays import Floats
 from nmm.errors import FormulationError, SolveError
+from nmm.solvers.factor import PIVOT
 from nmm.solvers.libraries.optional import MUMPS, QDLDL
 from nmm.solvers.linear import SOLVERS, Factor, make_solver
 from nmm.testing import check_solver
@@ -68,6 +69,21 @@ def test_refinement_goes_on_while_turns_take_off_half_of_the_residual(
     factor = Factor(make_solver("superlu", {"refinements": 3}), matrix, np.ones(n), inverse)
     factor.refined(np.ones(n))
     assert inverse.count == solves
+
+
+@pytest.mark.parametrize("soft", [1e-2, 1e-4, 1e-6])
+def test_one_correction_takes_what_the_shift_of_every_matrix_leaves_to_rounding(
+    soft: float,
+) -> None:
+    n = 40
+    matrix = csc_array(free_row(n) / 2 + soft * eye_array(n))
+    inverse = Counted(csc_array(matrix + PIVOT * eye_array(n)), 1.0)
+    factor = Factor(make_solver("superlu", {"refinements": 3}), matrix, np.ones(n), inverse)
+    load = np.random.default_rng(0).normal(size=n)
+    x = factor.refined(load)
+    assert inverse.count == 2
+    # A rounding of the terms of a row, up to twice the solution, and one of their sum.
+    assert np.linalg.norm(load - matrix @ x) <= 4 * 2.0**-53 * np.linalg.norm(x)
 
 
 def test_unknown_solver_and_option_are_refused() -> None:
