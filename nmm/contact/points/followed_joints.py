@@ -113,7 +113,8 @@ def _distance(model: Model, joints: Joints) -> Floats:
     """Return lengths (j,) of the stiffest material as soft as what lies across joints (m).
 
     ``h = E_max (h_a / E_a + h_b / E_b)`` with the distances of both elements' middles from the
-    joint; where moduli are equal to the largest, the distance of the middles.
+    joint; where moduli are equal to the largest, the distance of the middles, or the sum of these
+    where both lie on one side.
     """
     manifold, modulus = model.manifold, model.modulus
     middle = manifold.elements.centroids
@@ -122,6 +123,11 @@ def _distance(model: Model, joints: Joints) -> Floats:
         np.abs(contract("ij,ij->i", offset, joints.normal))
         for offset in (middle[a] - joints.start, middle[b] - joints.start, middle[a] - middle[b])
     )
+    # The middle of a hollow block lies behind its joints, that of a ring in what it encloses.
+    behind = contract("ij,ij->i", middle[a] - joints.start, joints.normal) * contract(
+        "ij,ij->i", middle[b] - joints.start, joints.normal
+    )
+    apart = np.where(behind >= 0, far_a + far_b, apart)
     # About a tip both faces are of one element, which has no middle on either side.
     far_a, far_b, apart = (
         np.where(a == b, share * joints.length, far)

@@ -216,3 +216,28 @@ block = "right"
     # Length over modulus, and one over the stiffness; a strain of 1e-4 and the springs of the
     # wall, 1e-4 of it. Forces at corners of cells add 2e-5 (degree 1) and 4e-5 m to 2.1e-4 m.
     assert done.history["monitor:end:ux"][-1] == pytest.approx(-1e5 * (2e-9 + 1e-10), rel=1e-3)
+
+
+@pytest.mark.parametrize("bonds", ["auto", "spring"])
+def test_a_core_hangs_in_a_ring_about_its_own_middle(bonds):
+    """Joints as long as the way between middles on both sides of them; here both are on one."""
+    ring, core = (
+        [[-h, -h], [h, -h], [h, h], [-h, h]]  # half of a side, m
+        for h in (2, 1)
+    )
+    text = (
+        'plane = "stress"\n[gravity]\nacceleration = [0, -10]\n[contact]\n[materials.rock]\n'
+        "young_modulus = 1e9\npoisson_ratio = 0.0\ndensity = 1000\n[interfaces.any]\n"
+        "bonded = true\nfriction_angle = 0.5\ncohesion = 1e9\ntensile_strength = 1e9\n"
+        f'[[blocks]]\nname = "ring"\nmaterial = "rock"\nvertices = {ring}\nholes = [{core}]\n'
+        f'[[blocks]]\nname = "core"\nmaterial = "rock"\nvertices = {core}\n'
+        '[[supports]]\nname = "held"\nblock = "ring"\nfix = ["x", "y"]\n'
+        '[[monitors]]\nname = "core"\npoint = [0, 0]\nblock = "core"\n'
+    )
+    found = run(text, f'[contact]\nbonds = "{bonds}"\n')
+    # The weight of 12 and 4 m2; two faces carry by pressure and two by shear, 2 m each, as springs
+    # of half of the modulus over 2 m. The ring gives way by 1e-3 of that on its supports.
+    assert found.history["reaction:held:y"][-1] == pytest.approx(16e4, rel=1e-9)
+    if bonds == "spring":
+        sinks = 4e4 / (4 * 2 * 0.5e9 / 2)
+        assert found.history["monitor:core:uy"][-1] == pytest.approx(-sinks, rel=1e-3)
