@@ -91,7 +91,9 @@ class _Placed:
         from nmm.stepping.prepare import prepare
 
         made = prepare(scene, scene.formulation or Formulation())
-        effects = made.stepper.plan.effects
+        # Effects hold one another weakly: their plan keeps those that this one asks.
+        self.plan = made.stepper.plan
+        effects = self.plan.effects
         self.effect: Effect = effects[OWN + name if OWN + name in effects else name]
         self.model, self.start = made.stepper.model, made.start
         self.stiffness = float(self.model.modulus.max() * self.model.element_area.sum())
