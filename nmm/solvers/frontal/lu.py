@@ -1,7 +1,5 @@
 """Multifrontal LU factorisation in compiled code, kept only where its answers are good."""
 
-from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import ClassVar
@@ -10,7 +8,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.solvers.factor import Decomposition, RankDeficientError
+from nmm.solvers.factor import Decomposition
 from nmm.solvers.frontal.frontal_factor import FrontalFactor
 from nmm.solvers.frontal.ordering import orders
 from nmm.solvers.frontal.symbolic import any_plan
@@ -71,43 +69,9 @@ class RoughLU(FrontalLU):
         """Factorise a scaled matrix; `RankDeficientError` at a zero pivot."""
         matrix = sorted_rows(matrix)
         found = FrontalFactor.lu(matrix, any_plan(matrix), single=True)
-        if found is None:
-            return super().decompose(matrix)
-        return OnTrial(matrix, found, super().decompose)
-
-
-@dataclass
-class OnTrial:
-    """A factor that the first load it solves is the trial of, in place of a load of its own.
-
-    Attributes
-    ----------
-    matrix
-        What was factorised.
-    factor
-        What solves.
-    better
-        Factorises the matrix where it leaves more than `ROUGH`, from when on that solves.
-    """
-
-    matrix: csc_array
-    factor: Decomposition
-    better: Callable[[csc_array], Decomposition]
-    tried: bool = False
-
-    def solve(self, rhs: Floats) -> Floats:
-        """Return the solution of one right-hand side (n,)."""
-        x = self.factor.solve(rhs)
-        if self.tried:
-            return x
-        self.tried = True
-        left, load = rhs - product(self.matrix, x), float(np.abs(rhs).max(initial=0.0))
-        if float(np.abs(left).max(initial=0.0)) <= ROUGH * load:
-            return x
-        # Without an inverse in double precision either the answer is judged by who asked for it.
-        with suppress(RankDeficientError):
-            self.factor = self.better(self.matrix)
-        return self.factor.solve(rhs)
+        if found is not None and _residual(matrix, found) <= ROUGH:
+            return found
+        return super().decompose(matrix)
 
 
 def _residual(matrix: csc_array, found: Decomposition) -> float:

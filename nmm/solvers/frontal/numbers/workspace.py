@@ -39,10 +39,10 @@ class Workspace:
 def _taken(size: int) -> Floats:
     for _ in range(len(SPARE)):
         try:
-            found = SPARE.pop()  # the newest is still in the core's cache
+            found = SPARE.popleft()
         except IndexError:  # another thread took the last one
             break
         if size <= len(found) <= 2 * size + 64:
             return found
-        SPARE.appendleft(found)
+        SPARE.append(found)
     return np.empty(size)

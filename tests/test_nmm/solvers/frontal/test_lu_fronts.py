@@ -9,7 +9,6 @@ from scipy.sparse import csc_array, csr_array, eye_array, kron, random_array
 from integration.arrays import Floats
 from nmm.solvers.frontal import symbolic
 from nmm.solvers.frontal.cholesky import Cholesky
-from nmm.solvers.frontal.frontal_factor import FrontalFactor
 from nmm.solvers.frontal.lu import FrontalLU
 from nmm.solvers.frontal.numbers import workspace
 from nmm.solvers.libraries.superlu import SuperLU
@@ -121,21 +120,6 @@ def test_rough_factors_are_of_double_precision_where_single_leaves_too_much() ->
     found = FrontalLU().rough().decompose(csc_array(matrix))
     # a push of one on each moves all by one over the ground of each
     np.testing.assert_allclose(found.solve(np.ones(200)), 2e11, rtol=1e-3)
-
-
-def test_rough_factors_are_tried_on_the_first_load_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    loads, solve = [], FrontalFactor.solve
-
-    def counted(factor: FrontalFactor, load: Floats) -> Floats:
-        loads.append(load)
-        return solve(factor, load)
-
-    monkeypatch.setattr(FrontalFactor, "solve", counted)
-    found = FrontalLU().rough().decompose(leaning(9, 1, 0.3))
-    asked = [np.ones(243), np.arange(243.0)]
-    for load in asked:
-        found.solve(load)
-    np.testing.assert_array_equal(loads, asked)
 
 
 def test_pivots_are_exchanged_within_a_front() -> None:
