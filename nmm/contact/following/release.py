@@ -9,6 +9,7 @@ from nmm.contact.bonds.release import given_way
 from nmm.contact.bonds.turning import beside
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.points.contact_points import AT_ENDS
+from nmm.contact.points.joint_book import not_pressed
 from nmm.contact.problem.step_problem import BROKEN
 from nmm.contact.solution.record import ContactRecord, ContactSolution
 
@@ -50,5 +51,5 @@ def let_go(
         shear_force=np.where(dropped, 0.0, points.shear_force),
         history=history,
     )
-    opened = contacts.key[gone & (solved.answer.normal_force >= 0)]
+    opened = not_pressed(contacts, gone, solved.answer.normal_force)
     return replace(record, book=replace(record.book, points=points).opened_at(opened)), shed

@@ -119,15 +119,13 @@ def _distance(model: Model, joints: Joints) -> Floats:
     manifold, modulus = model.manifold, model.modulus
     middle = manifold.elements.centroids
     a, b = (manifold.boundary.element[edge] for edge in (joints.edge_a, joints.edge_b))
-    far_a, far_b, apart = (
-        np.abs(contract("ij,ij->i", offset, joints.normal))
+    beside_a, beside_b, across = (
+        contract("ij,ij->i", offset, joints.normal)
         for offset in (middle[a] - joints.start, middle[b] - joints.start, middle[a] - middle[b])
     )
+    far_a, far_b = np.abs(beside_a), np.abs(beside_b)
     # The middle of a hollow block lies behind its joints, that of a ring in what it encloses.
-    behind = contract("ij,ij->i", middle[a] - joints.start, joints.normal) * contract(
-        "ij,ij->i", middle[b] - joints.start, joints.normal
-    )
-    apart = np.where(behind >= 0, far_a + far_b, apart)
+    apart = np.where(beside_a * beside_b >= 0, far_a + far_b, np.abs(across))
     # About a tip both faces are of one element, which has no middle on either side.
     far_a, far_b, apart = (
         np.where(a == b, share * joints.length, far)

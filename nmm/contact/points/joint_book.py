@@ -96,7 +96,7 @@ class JointBook:
     @property
     def opened(self) -> "JointBook":
         """The book with every end that would bear once bonds give way."""
-        return replace(self, pair_bears=self.pair_beyond | self.pair_bears)
+        return replace(self, pair_bears=self.pair_beyond)
 
     def without(self, contacts: ContactPoints) -> "JointBook":
         """Return the book without the bonds and the terms that are gone among the contacts."""
@@ -192,7 +192,12 @@ class JointBook:
 
 def standing_open(points: ContactPoints) -> Ints:
     """Return the keys of points without a bond of consistent terms that nothing presses."""
-    return points.key[~points.tied & (points.normal_force >= 0)]
+    return not_pressed(points, ~points.tied, points.normal_force)
+
+
+def not_pressed(points: ContactPoints, chosen: Bools, normal_force: Floats) -> Ints:
+    """Return the keys of the chosen points (m,) that nothing presses under normal forces (m,)."""
+    return points.key[chosen & (normal_force >= 0)]
 
 
 def given_up(points: ContactPoints) -> ContactPoints:

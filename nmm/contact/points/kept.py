@@ -5,6 +5,7 @@ from functools import wraps
 from operator import is_
 from typing import Any, TypeVar
 
+from nmm.assembly.kept import MARK
 from nmm.contact.points.contact_points import ContactPoints
 
 Owner = TypeVar("Owner")
@@ -18,7 +19,7 @@ def of_pairs(make: Callable[[Owner, ContactPoints], T]) -> Callable[[Owner, Cont
     the same ones on as long as search finds the same pairs. The value is in the dictionary of the
     object whose method it is, as those of `nmm.assembly.kept` are.
     """
-    name = f"kept: {make.__qualname__}"
+    name = MARK + make.__qualname__
 
     @wraps(make)
     def of(owner: Owner, points: ContactPoints) -> T:

@@ -23,6 +23,7 @@ from nmm.contact.laws.failing_bonds import breaking
 from nmm.contact.laws.history_iteration import HistoryIteration
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.contact_rows import ContactRows
+from nmm.contact.points.joint_book import not_pressed
 from nmm.contact.problem.coulomb import shear_bound, turned_back
 from nmm.contact.problem.step_problem import SLIDE, StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform, solve_through
@@ -123,7 +124,7 @@ class ContactSolver:
             overloaded = broken, brittle
             contacts, stored = given_way(self._laws, contacts, overloaded, loaded, springs, limits)
             loss += stored
-            opened = np.union1d(opened, contacts.key[broken & (loaded.normal_force >= 0)])
+            opened = np.union1d(opened, not_pressed(contacts, broken, loaded.normal_force))
             gone = BrokenBonds(contacts, loss, opened)
             if request.uncovers is not None and request.uncovers(gone):
                 return replace(found, broken=gone, uncovered=True)

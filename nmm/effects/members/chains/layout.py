@@ -47,9 +47,9 @@ class SlipLayout:
 
     def pulled(self, force: Floats) -> Floats:
         """Forces (p,) at slips of axial forces (m,)."""
-        slips = self.count
-        pulled = np.bincount(self.right % (slips + 1), force, slips + 1)
-        return np.asarray(pulled - np.bincount(self.left % (slips + 1), force, slips + 1))[:-1]
+        ends = self.count + 1  # -1 is a fixed end
+        pulled = np.bincount(self.right % ends, force, ends)
+        return np.asarray(pulled - np.bincount(self.left % ends, force, ends))[:-1]
 
     def matrix(self, axial: Floats, bond: Floats) -> Floats:
         """Stiffness of slips in upper banded form (2, p)."""
