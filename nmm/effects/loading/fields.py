@@ -39,19 +39,22 @@ class ValueField:
         (2,) where the axes of the model lie in those of the scene (m).
     what
         The table of the scene that it belongs to, for errors.
+    table
+        Its values at places, if it is given so.
     """
 
     varies: bool
     of: Callable[[Floats, float], Floats]
     origin: Floats
     what: str
+    table: "ValueTable | None" = None
 
     @classmethod
     def named(cls, setup: Setup, given: "tuple[str, str] | str", what: str) -> Self:
         """Return the field that a load or support gives by expressions or by a table's name."""
         if isinstance(given, str):
             table = ValueTable.of(setup.scene.fields[given])
-            return cls(len(table.times) > 1, table.values, setup.origin, what)
+            return cls(len(table.times) > 1, table.values, setup.origin, what, table)
         parts = [Expression.of(text) for text in given]
 
         def values(points: Floats, time: float) -> Floats:
@@ -70,6 +73,22 @@ class ValueField:
         begin = setup.start.time
         for time in (begin, begin + (setup.scene.duration or 0.0)):
             self.values(points, time)
+
+    def sampled(self, instants: Floats) -> Callable[[Floats], Floats]:
+        """Return a function for values (m, 2 n) at n instants, 0 where they are not finite."""
+
+        def values(points: Floats) -> Floats:
+            found = [self.of(points + self.origin, float(time)) for time in instants]
+            one = np.concatenate(found, axis=1)
+            return np.where(np.isfinite(one), one, 0.0)
+
+        return values
+
+    def knots(self, segments: Floats) -> Floats:
+        """Return where segments (k, 2, 2) pass places of a table (k, n), from 0 to 1 along each."""
+        if self.table is None:
+            return np.zeros((len(segments), 0))
+        return self.table.knots(segments + self.origin)
 
     def values(self, points: Floats, time: float) -> Floats:
         """Return the values (m, 2) at points (m, 2) in the axes of the model.
@@ -145,6 +164,23 @@ class ValueTable:
         span = self.times[after] - self.times[before]
         share = float(np.clip((time - self.times[before]) / span, 0.0, 1.0))
         return (1 - share) * self._over(before)(points) + share * self._over(after)(points)
+
+    def knots(self, segments: Floats) -> Floats:
+        """Return where segments (k, 2, 2) are beside places of a line, or pass other places (k, n).
+
+        They count from 0 to 1 along each segment; nan where a place is not on it.
+        """
+        start, way = segments[:, 0], segments[:, 1] - segments[:, 0]
+        with np.errstate(divide="ignore", invalid="ignore"):  # segments across the line
+            if self._line is not None:
+                centre, along = self._line
+                gone = (self.places - centre) @ along - ((start - centre) @ along)[:, None]
+                return np.asarray(gone / (way @ along)[:, None])
+            to = self.places - start[:, None]
+            length = np.hypot(*way.T)[:, None]
+            off = (way[:, None, 0] * to[..., 1] - way[:, None, 1] * to[..., 0]) / length
+            passed = np.einsum("kni,ki->kn", to, way) / length**2
+            return np.where(np.abs(off) < self._reach, passed, np.nan)
 
     def _over(self, number: int) -> Interpolation:
         along = self._line

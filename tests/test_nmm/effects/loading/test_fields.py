@@ -126,6 +126,54 @@ def test_a_file_of_columns_gives_the_field(tmp_path):
     assert ends(run, "corner") == pytest.approx(bent(3, 1), abs=1e-9)
 
 
+def held(load, cover='type = "block"'):
+    """Resultant of a load on a plate of 2 m that is held on its left, from its reactions."""
+    hold = BENDING.split("[[loads]]")[0].replace(
+        '"6*x*y/1000", "-3*(x**2 + 0.3*y**2)/1000"', "0, 0"
+    )
+    text = plate(hold + load).split("[formulation.cover]")[0] + f"[formulation.cover]\n{cover}\n"
+    run = nmm.run(nmm.parse_scene(text))
+    found = [-run.history[f"reaction:left:{axis}"][-1] for axis in "xy"]
+    return found, run.summary.warnings
+
+
+@pytest.mark.parametrize("cover", ['type = "block"', 'type = "triangles"\nsize = 0.7\ndegree = 2'])
+@pytest.mark.parametrize(
+    ("field", "expected"),
+    [
+        ('["where(y > 0.3, 2.0, 0)", "sin(9*y) + 1"]', (1.4, 2.0)),
+        ('["exp(-200*(y - 0.2)**2)", "abs(y - 0.1)"]', (np.sqrt(np.pi / 200), 1.01)),
+        ('"knots"', (0.35, -1.0)),
+    ],
+)
+def test_a_traction_that_jumps_waves_or_bends_within_an_edge_has_its_integral(
+    field, expected, cover
+):
+    # Triangles over 0.7 m, of height 1, between knots; 1e-8 leaves room for rounding of supports.
+    load = '[[loads]]\nname = "right"\nkind = "edge"\nsegment = [[3, -1], [3, 1]]\n'
+    table = "[fields.knots]\nrows = [[3, -1, 0, 0], [3, -0.8, 0, -2.5], [3, -0.2, 0, 0], "
+    table += "[3, -0.1, 1, 0], [3, 0.5, 0, 0], [3, 1, 0, 0]]\n"
+    found, told = held(f"{load}field = {field}\n" + (table if "knots" in field else ""), cover)
+    assert found == pytest.approx(expected, abs=1e-7)
+    assert not told
+
+
+def test_a_force_on_volume_that_jumps_within_a_block_has_its_integral():
+    # Above a slanting line 0.4 m over the middle of the plate lie 2 - 0.8 of its 4 m2.
+    load = (
+        '[[loads]]\nname = "part"\nkind = "body"\nfield = ["where(y > 0.3*x - 0.2, 1, 0)", "0"]\n'
+    )
+    found, told = held(load)
+    assert found == pytest.approx((1.2, 0.0), abs=1e-4)
+    assert not told
+
+
+def test_a_jump_that_moves_with_the_load_factor_within_an_edge_is_told():
+    load = '[[loads]]\nname = "front"\nkind = "edge"\nsegment = [[3, -1], [3, 1]]\n'
+    _, told = held(load + 'field = ["where(y < 0.7*t, 1.0, 0)", "0"]\n')
+    assert any("[[loads]] front may be off by" in one for one in told)
+
+
 @pytest.mark.parametrize("cover", ["quads", "triangles"])
 def test_field_loads_keep_what_every_effect_promises(cover):
     more = BENDING.format(field='["6*y", "0"]') + VOLUME.split("[[supports]]")[0]
