@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field, model_validator
 
-from nmm.scene.fields import BlockName, Frozen, Name, Options, TableName, Time, example, fault
+from nmm.scene.fields import BlockName, Flag, Frozen, Name, Options, TableName, Time, example, fault
 
 KINDS = {
     "loads": ("loads",),
@@ -77,7 +77,7 @@ class StageTable(Frozen):
         "of these and of those before; what is gone stays gone; all of it at once when never given",
         examples=[0.5],
     )
-    reset_displacements: bool = Field(
+    reset_displacements: Flag = Field(
         default=False,
         description="true or false: whether displacements, of monitors and of frames, count from "
         "its start",

@@ -12,6 +12,7 @@ from nmm.effects.base import StageLoads
 from nmm.errors import Fault, FormulationError, SceneError
 from nmm.model.origin import shifted
 from nmm.model.staging.acting import blocks_named, keys_of_stage, named_in
+from nmm.scene.faults import report
 from nmm.scene.methods.cover_tables import CoverTable
 from nmm.scene.stages import KINDS
 
@@ -194,11 +195,10 @@ def _formulation(table: "StageTable", now: "Formulation", place: _Place) -> "For
     try:
         whole = CoverTable.model_validate({**known, **table.cover})
     except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        key = ".".join(str(part) for part in first["loc"]) or "cover"
-        value = f"{key}: {first['input']!r:.60}: {first['msg']}"
-        expected, remedy = "keys of [cover] of a formulation", "see nmm explain cover"
-        raise FormulationError(place.fault("cover", value, expected, remedy)) from None
+        key = ".".join(str(part) for part in error.errors(include_url=False)[0]["loc"]) or "cover"
+        told = report(error, CoverTable, place.scene.source)[0]
+        at = place.fault("cover", f"{key}: {told.value}", told.expected, told.remedy)
+        raise FormulationError(at) from None
     # The keys that stay have been shifted already.
     moved = shifted(whole, -place.origin) if place.origin.any() else whole
     own = {key: getattr(moved, key) for key in table.cover}

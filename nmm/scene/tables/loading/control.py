@@ -70,6 +70,9 @@ class ControlTable(Frozen):
             value = f'type = "{self.type}" with {len(self.monitors)} monitors'
             remedy = "correct their number in monitors"
             raise fault(value, f"names of monitors, {count} of them", remedy)
+        if len(set(self.monitors)) < len(self.monitors):
+            remedy = "name another, across what opens"
+            raise fault(f'"{self.monitors[0]}" twice', "monitors of two points", remedy)
         if not any(self.direction):
             raise fault("direction [0, 0]", "a direction that is not zero", "correct it")
         return self

@@ -393,7 +393,8 @@ def test_a_bolt_whose_block_leaves_is_refused_with_the_stage():
 
 
 def test_keys_that_no_cover_has_are_told():
-    with pytest.raises((FormulationError, SceneError), match="sise"):
+    said = r'cover: sise: unknown key "sise": expected a known key: did you mean "size"\?'
+    with pytest.raises((FormulationError, SceneError), match=said):
         run(STACKED + '[[stages]]\nname = "one"\ncover = { sise = 1 }\n', MESHES["quads"])
 
 

@@ -30,3 +30,10 @@ def test_a_scene_built_in_python_is_checked_like_a_file() -> None:
     assert scene.blocks[0].vertices[1] == (1.0, 0.0)
     with pytest.raises(ValueError, match="a density in kg/m3"):
         Scene(plane="strain", materials={"rock": rock}, blocks=(block,), gravity=GravityTable())
+
+
+def test_an_opening_between_a_point_and_itself_is_refused() -> None:
+    monitor = '[[monitors]]\nname = "lip"\npoint = [0.2, 0.1]\n'
+    control = '[loading.control]\ntype = "opening"\nincrement = "1 um"\n'
+    line = fault_of(GOOD + control + 'monitors = ["lip", "lip"]\n' + monitor)
+    assert 'loading.control: "lip" twice: expected monitors of two points' in line
