@@ -51,6 +51,18 @@ class InitialStress(Effect):
         return self.given.energy(self._model)
 
     @property
+    def caution(self) -> str:
+        """See `Effect.caution`: matter above the surface that its stress counts from."""
+        height, pull = self.given.tension(self._model)
+        if not height:
+            return ""
+        return (
+            f"matter reaches {height:.3g} m above where the stress by depth is zero, and begins "
+            f"there under a tension of up to {pull:.3g} Pa; name the blocks below by block, or "
+            "raise surface"
+        )
+
+    @property
     def nonlinear(self) -> bool:
         """See `Effect.nonlinear`: true in finite strain."""
         return self._turned is not None

@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     from nmm.scene.tables.initial import InitialStressTable
 
 
+# Share of the largest stress up to which a tension at the surface is rounding.
+ROUNDED = 1e-9
+
+
 @dataclass(frozen=True)
 class StressAtStart:
     """Stress of elements in body axes, linear in y.
@@ -58,6 +62,22 @@ class StressAtStart:
     def even(self) -> bool:
         """Whether it is uniform in each element."""
         return not self.slope.any()
+
+    def tension(self, model: Model) -> tuple[float, float]:
+        """Return how far matter reaches above where stress by depth is zero (m), and its tension.
+
+        The latter is the largest vertical one at the start (Pa); both are zero below the surface.
+        """
+        elements = model.manifold.elements
+        top = np.full(len(elements), -np.inf)
+        np.maximum.at(top, elements.polygon_of_point, elements.points[:, 1])
+        by_depth = self.slope[:, 1] > 0
+        pull = self.mean[:, 1] + (top - elements.centroids[:, 1]) * self.slope[:, 1]
+        pull[~by_depth] = 0.0
+        if not by_depth.any() or pull.max() <= ROUNDED * np.abs(self.mean[by_depth, 1]).max():
+            return 0.0, 0.0
+        worst = int(pull.argmax())
+        return float(pull[worst] / self.slope[worst, 1]), float(pull[worst])
 
     def at(self, model: Model, elements: Ints, points: Floats) -> Floats:
         """Return the stress (m, 4) at reference points (m, 2) of elements (m,) (Pa)."""

@@ -127,3 +127,14 @@ def test_what_contradicts_itself_is_refused_by_line(old, new, said):
     assert old in text
     with pytest.raises(SceneError, match=said):
         nmm.parse_scene(text.replace(old, new, 1))
+
+
+@pytest.mark.parametrize(("surface", "told"), [(0.0, ""), (-1.5, ""), (-3.0, "1.5 m above")])
+def test_matter_above_the_surface_that_begins_under_tension_is_told(surface, told):
+    # 30 kPa of surcharge are 1.5 m of 20 kN/m3: what is higher above the surface is pulled.
+    scene = ground("quads")
+    stress = scene.initial_stresses[0].model_copy(update={"surface": surface})
+    run = nmm.run(scene.model_copy(update={"initial_stresses": (stress,)}))
+    found = [one for one in run.summary.warnings if "stress by depth" in one]
+    assert len(found) == bool(told)
+    assert told in "".join(found)
