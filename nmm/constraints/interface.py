@@ -36,6 +36,8 @@ class Interface:
         From the instant to the displacement of the ground in m, (2,) or (m, 2).
     anchor
         (m, 2) displacement of the points when the ground took hold of them (m).
+    acted
+        (m,) whether something else acts on the face, for each side; None where nothing does.
     """
 
     first: Place
@@ -45,6 +47,7 @@ class Interface:
     held: Bools = field(default_factory=lambda: np.ones(2, dtype=bool))
     displacement: Callable[[Instant], Floats] = lambda end: np.zeros(2)
     anchor: Floats | float = 0.0
+    acted: tuple[Bools, Bools] | None = None
 
     def __len__(self) -> int:
         return len(self.area)

@@ -16,8 +16,9 @@ from nmm.constraints.chosen_method import support_method
 from nmm.constraints.declared_supports import declared, lets_turn, sudden_starts
 from nmm.constraints.driven_bodies import DrivenBodies, driven
 from nmm.constraints.followed_supports import exerted, followed, with_those_gone
-from nmm.constraints.imposition import Imposition
-from nmm.constraints.laid_springs import laid_under_stress
+from nmm.constraints.imposition import Imposition, Method
+from nmm.constraints.interface import Interface
+from nmm.constraints.laid_springs import faces_another, laid_under_stress
 from nmm.constraints.nitsche.volume_lift import sharing
 from nmm.constraints.points_under_stress import laid_at_points
 from nmm.constraints.ties.tied_interfaces import TiedInterfaces
@@ -64,7 +65,11 @@ class Supports(TiedInterfaces):
         method = support_method(setup.model, part, size, highest_degree(cover), setup.only_strained)
         interfaces = [declared(setup, support, method) for support in scene.supports]
         edges = [i for i, one in enumerate(interfaces) if one.first.normal is not None]
-        # At points that are no edge springs, which need no traction.
+        on_joints = _on_joints(setup, method, [interfaces[i] for i in edges])
+        if part.method == "auto":
+            edges = [i for i in edges if interfaces[i].name not in on_joints]
+        # Springs need no traction: at points that are no edge, and on faces of joints, where the
+        # support and the neighbour share it.
         found = replace(method, kind="penalty").impose(setup.model, interfaces)
         along = method.impose(setup.model, [interfaces[i] for i in edges])
         for i, support in zip(edges, along, strict=True):
@@ -74,11 +79,13 @@ class Supports(TiedInterfaces):
         n_unknowns, in_time = setup.model.manifold.n_unknowns, scene.inertia is not None
         turns = turning(setup) if lets_turn(setup.model, interfaces) else None
         caution = sudden_starts(setup, interfaces)
+        if on_joints and part.method != "auto":
+            caution = "; ".join(filter(None, (caution, _shared_tractions(on_joints))))
         return cls(found, n_unknowns, setup.start, in_time, turns, setup.model, caution)
 
     @property
     def caution(self) -> str:
-        """See `Effect.caution`: ground that sets out or jumps at once."""
+        """See `Effect.caution`: ground that jumps at once, tractions that neighbours share."""
         return self._caution
 
     def follow(self, change: "Change") -> "Supports":
@@ -221,3 +228,20 @@ def _sharing(supports: Sequence[Imposition]) -> list[Imposition]:
     """Return supports whose pressures know of one another."""
     pairs = zip(supports, sharing([s.lift for s in supports]), strict=True)
     return [s if one is None else s.with_lift(one) for s, one in pairs]
+
+
+def _on_joints(setup: Setup, method: Method, edges: Sequence[Interface]) -> list[str]:
+    """Return the names of those supports by Nitsche's method that hold faces of joints."""
+    if method.kind != "nitsche":
+        return []
+    return [one.name for one in edges if faces_another(setup, one.first).any()]
+
+
+def _shared_tractions(names: Sequence[str]) -> str:
+    """Tell that Nitsche's method holds faces of joints, in words."""
+    named = ", ".join(f'"{name}"' for name in names)
+    return (
+        f"{named} on faces of joints by Nitsche's method, which takes the traction of the body for "
+        "the support's: the neighbour has a part of it, and held faces move by that over the "
+        'penalty; leave out [supports] method, or use "lagrange"'
+    )

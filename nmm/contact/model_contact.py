@@ -61,7 +61,8 @@ class ModelContact(ContactWorkings):
         given = laws, parts.joint_rule, parts.cracks
         book = follow_joints(surface, model, partners.interfaces, *given)
         seamless = parts.mixed & parts.cracks.points(model.manifold, book.points)
-        bonds, points = StepBonds.of(model, book.points, laws, seamless)
+        acted = None if parts.acted_on is None else parts.acted_on(book.points)
+        bonds, points = StepBonds.of(model, book.points, laws, seamless, acted)
         laws.refuse_soft(points.take(~points.tied))
         super().__init__(model, parts, bonds, points)
         book = replace(book, points=points)

@@ -1,5 +1,6 @@
 """The parts that contact is made of."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from integration.arrays import Bools
@@ -7,6 +8,7 @@ from nmm.contact.candidates.partners import Partners
 from nmm.contact.enforcement.base import Enforcement
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.mortar.trace_space import TraceSpace
+from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.cracks.bonded_cracks import BondedCracks
 
 
@@ -33,6 +35,9 @@ class ContactParts:
         Where exact conditions on faces are held in the mean, None where none are.
     keeps_energy
         Whether springs are to give back what they store.
+    acted_on
+        From joint points (m,) to whether something acts on the face there, for each side; None
+        where nothing can.
     """
 
     laws: ContactLaws
@@ -45,3 +50,4 @@ class ContactParts:
     bends: bool
     trace_space: TraceSpace | None
     keeps_energy: bool = False
+    acted_on: Callable[[ContactPoints], tuple[Bools, Bools] | None] | None = None

@@ -11,6 +11,7 @@ from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.assembly.tractions.held_edges import HeldEdge
 from nmm.contact.model_contact import ModelContact
+from nmm.effects.acted_bonds import loaded_twice
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.contact_parts import contact_parts, stress_of_ground
 
@@ -25,6 +26,7 @@ class Contact(ModelContact, Effect):
     name = "contact"
     external = False
     _ground: "StressIn | None" = None
+    _loaded_twice: str = ""
 
     @classmethod
     def beyond_strain(cls) -> bool:
@@ -35,6 +37,8 @@ class Contact(ModelContact, Effect):
     def from_setup(cls, setup: Setup) -> Self:
         found = cls(setup.model, contact_parts(setup), setup.start)
         found._ground = stress_of_ground(setup)
+        if found.bonds.terms is not None:
+            found._loaded_twice = loaded_twice(setup, found.record.book.points)
         return found
 
     def begin(self, state: State) -> State:
@@ -45,12 +49,13 @@ class Contact(ModelContact, Effect):
 
     @property
     def caution(self) -> str:
-        """See `Effect.caution`: bodies that are softer than their contact dampers."""
-        if not self.laws.damps:
-            return ""
-        from nmm.contact.laws.dashpots import yielding_bodies
+        """See `Effect.caution`: loads on both faces of bonds, bodies softer than their dampers."""
+        told = [self._loaded_twice]
+        if self.laws.damps:
+            from nmm.contact.laws.dashpots import yielding_bodies
 
-        return yielding_bodies(self.laws, self.model)
+            told.append(yielding_bodies(self.laws, self.model))
+        return "; ".join(filter(None, told))
 
     def follow(self, change: "Change") -> "Contact":
         """Return the contact of the new model, with the state of joints and contacts."""

@@ -1,6 +1,7 @@
 """The parts of contact, as a scene and its formulation declare them."""
 
 from collections.abc import Iterator, Mapping
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +17,7 @@ from nmm.contact.mortar.segments import face_points
 from nmm.contact.mortar.trace_space import TraceSpace
 from nmm.contact.parts import ContactParts
 from nmm.contact.points.cracks.bonded_cracks import BondedCracks
+from nmm.effects.acted_bonds import acted_on
 from nmm.effects.base import Setup
 from nmm.errors import Fault, FormulationError, SceneError
 from nmm.formulation import ContactMethod
@@ -59,9 +61,8 @@ def contact_parts(setup: Setup) -> ContactParts:
     mixed = setup.scene.inertia is None and not enforcement.exact
     if springs and points:
         raise _no_potential(setup)
-    return ContactParts(
-        laws, partners, enforcement, joint_rule, cracks, mixed, held, bends, nodes, springs
-    )
+    parts = laws, partners, enforcement, joint_rule, cracks, mixed, held, bends, nodes, springs
+    return ContactParts(*parts, partial(acted_on, setup) if laws.consistent else None)
 
 
 def stress_of_ground(setup: Setup) -> "StressIn | None":

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from covers.cutting.cut_boundary import CutBoundary
-from integration.arrays import Bools, Floats, Ints
+from integration.arrays import Floats, Ints
 from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
 from nmm.assembly.places import Place, along_segment, on_parts
 from nmm.assembly.state import State
+from nmm.effects.acted_parts import crack_faces
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 from nmm.effects.loading.load_factor import load_factor
 from nmm.errors import Fault, SceneError
@@ -187,18 +187,9 @@ def _edges(setup: Setup, item: "WaterPressureTable") -> tuple[Ints, Floats, Floa
     if regions is not None:
         chosen = np.asarray(regions[manifold.element_region[boundary.element]])
     if item.crack is not None:
-        chosen &= _faces(setup, item.crack)
+        chosen &= crack_faces(setup, item.crack)
     index = np.flatnonzero(chosen)
     return index, boundary.start[index], boundary.end[index]
-
-
-def _faces(setup: Setup, name: str) -> Bools:
-    """Which edges are faces of a crack."""
-    boundary = setup.model.cut.boundary
-    number = [crack.name for crack in setup.scene.cracks].index(name)
-    if not isinstance(boundary, CutBoundary):
-        return np.zeros(len(boundary), dtype=bool)
-    return np.asarray(boundary.crack == number)
 
 
 def _divided(

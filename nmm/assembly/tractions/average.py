@@ -9,6 +9,11 @@ The ratio is a modulus ``m_i`` times a reach ``g_i`` in 1/m. The least penalty i
 larger reach on both sides, ``g m_1 m_2 / (m_1 + m_2)``: below the softer side's, whatever the
 other's modulus. With the reach of either side a thin side would hardly count, and what is glued to
 it would give way by a quarter of its own strain where nothing pulls.
+
+A face on which a load or a support exerts ``t_i`` hands on ``sigma_i n_i - t_i``. Where that is so
+on one side alone its weight is zero, and the traction is the other side's, which no ``t_i`` is part
+of: Nitsche's form is consistent with any weights that sum to one (Hansbo and Hansbo 2002), and with
+one side it needs the whole ``r`` of that side as its penalty.
 """
 
 from collections.abc import Sequence
@@ -16,7 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.tractions.donors import Flux, donors, traction_rows
 from nmm.assembly.tractions.element_bounds import element_bounds
@@ -49,6 +54,7 @@ class AverageTraction:
         normal: Floats,
         area: Floats,
         reach: Sequence[Floats] | None = None,
+        acted: Sequence[Bools] | None = None,
     ) -> "AverageTraction":
         """Average the tractions at points of both sides.
 
@@ -63,6 +69,8 @@ class AverageTraction:
         reach
             (m,) lengths (m), for each side: the bounds of an element's edges go as their inverse.
             None makes them all the same.
+        acted
+            (m,) whether something else acts on the face, for each side; None where nothing does.
         """
         donor = [donors(model, own) for own in elements]
         rows = [
@@ -72,6 +80,8 @@ class AverageTraction:
         bounds = element_bounds(model, donor, [values for _, values in rows], area, reach)
         # Functions without strain are as a material that nothing strains.
         compliance = [_inverse(bound) for bound in bounds]
+        if acted is not None:
+            compliance = _without_acted(compliance, acted)
         total = compliance[0] + compliance[1]
         share = tuple(part / np.where(total > 0, total, 1.0) for part in compliance)
         body = model.manifold.element_body
@@ -88,7 +98,7 @@ class AverageTraction:
                 donor, positions, rows, share, strict=True
             )
         )
-        return cls(fluxes, share, _least(model, donor, bounds))
+        return cls(fluxes, share, _least(model, donor, bounds, compliance))
 
 
 def direct_modulus(model: Model) -> Floats:
@@ -96,11 +106,23 @@ def direct_modulus(model: Model) -> Floats:
     return np.asarray(model.drained[:, :2, :2].max(axis=(1, 2)))
 
 
-def _least(model: Model, donor: Sequence[Ints], bounds: Sequence[Floats]) -> Floats:
-    """``g m_1 m_2 / (m_1 + m_2)`` (m,): the bound with the larger reach on both sides (Pa/m)."""
+def _without_acted(compliance: Sequence[Floats], acted: Sequence[Bools]) -> list[Floats]:
+    """Leave out (m,) the side on whose face alone something acts, where the other has stress."""
+    (one, two), (at_one, at_two) = compliance, acted
+    left_out = at_one & ~at_two & (two > 0), at_two & ~at_one & (one > 0)
+    return [np.where(out, 0.0, own) for own, out in zip((one, two), left_out, strict=True)]
+
+
+def _least(
+    model: Model, donor: Sequence[Ints], bounds: Sequence[Floats], counts: Sequence[Floats]
+) -> Floats:
+    """``g m_1 m_2 / (m_1 + m_2)`` (m,): the bound with the larger reach on both sides (Pa/m).
+
+    It is ``g m`` of the only side that ``counts`` (m,) where the other one does not.
+    """
     modulus = direct_modulus(model)
     reach = np.maximum(bounds[0] / modulus[donor[0]], bounds[1] / modulus[donor[1]])
-    give = [np.where(b > 0, 1 / modulus[d], 0.0) for b, d in zip(bounds, donor, strict=True)]
+    give = [np.where(c > 0, 1 / modulus[d], 0.0) for c, d in zip(counts, donor, strict=True)]
     return np.asarray(reach * _inverse(give[0] + give[1]))
 
 

@@ -78,6 +78,7 @@ def between_bodies(model: Model, interface: Interface, method: Method) -> Terms:
         [side.position for side in sides],
         normal,
         interface.area,
+        acted=interface.acted,
     )
     factor = SAFETY_BODIES if method.gamma is None else method.gamma
     held_up = lift(

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
+from integration.arrays import Bools
 from nmm.assembly.model import Model
 from nmm.constraints.chosen_method import chosen
 from nmm.constraints.imposition import Imposition, Method
@@ -26,6 +27,7 @@ from nmm.constraints.ties.shared_edges import (
 from nmm.constraints.ties.tied_interfaces import TiedInterfaces
 from nmm.constraints.turned_axes import turning
 from nmm.contact.detection.joints import Joints
+from nmm.effects.acted_faces import ActedFaces, shared_stretches, wet_faces
 from nmm.effects.base import Setup
 from nmm.errors import FormulationError
 
@@ -46,27 +48,33 @@ class BondedInterfaces(TiedInterfaces):
     external = False
     least_cut = 1.0
     """Smallest element of those that Nitsche's terms glue with no polynomials, in largest ones."""
+    loaded_twice = ""
+    """Where loads act on both faces that Nitsche's terms glue, in words."""
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """Find the edges that blocks with a bonded interface share."""
         model, part = setup.model, setup.formulation.glue
-        joints = shared_edges(model)
+        joints, twice = shared_edges(model), ""
         spring, sprung, glued = bonded_stiffness(setup, joints)
         ties: list[Imposition] = []
         if sprung.any():
             interface = gauss_interface(model, joints.take(sprung))
             stiffness = spring[sprung][interface.first.piece]
-            glue = glue_stiffness(model, interface, part.stiffness)[:, None]
-            ties.append(joint_springs(interface, np.where(np.isnan(stiffness), glue, stiffness)))
+            firm = glue_stiffness(model, interface, part.stiffness)[:, None]
+            ties.append(joint_springs(interface, np.where(np.isnan(stiffness), firm, stiffness)))
         cover = setup.formulation.cover
         if glued.any():
             size = cover.finest if model.manifold.shared_covers else None
-            ties += glue_edges(model, joints.take(glued), part, size)
+            glue, faces = joints.take(glued), ActedFaces.of(setup)
+            sides = shared_stretches(model, glue.edge_a, glue.edge_b)
+            ties += glue_edges(model, glue, part, size, faces.beside(sides))
+            if any(tie.reads_stress for tie in ties):
+                twice = faces.twice(sides) or wet_faces(setup)
         if setup.scene.initial_stresses:
             ties = laid_under_stress(setup, ties)
         made = cls(ties, model.manifold.n_unknowns, turning(setup))
-        made.least_cut = _least_cut(model, ties)
+        made.least_cut, made.loaded_twice = _least_cut(model, ties), twice
         return made
 
     def follow(self, change: "Change") -> "BondedInterfaces":
@@ -85,14 +93,21 @@ class BondedInterfaces(TiedInterfaces):
 
     @property
     def caution(self) -> str:
-        """See `Effect.caution`: weights that are no polynomials, glued on slivers."""
-        if self.least_cut >= SLIVER:
-            return ""
-        return (
-            f"Nitsche's glue on slivers of {self.least_cut:.1g} of the largest element, with "
-            "weights that are no polynomials: stress there is off by 12 % and more; shift the net, "
-            "or take another cover"
-        )
+        """See `Effect.caution`: loads on both faces, weights that are no polynomials on slivers."""
+        told = []
+        if self.loaded_twice:
+            told.append(
+                f"{self.loaded_twice} of glue by Nitsche's terms, which take the mean stress of "
+                "both sides for the traction: faces part by the loads on them over twice the "
+                'penalty; use [glue] method = "lagrange" or "spring"'
+            )
+        if self.least_cut < SLIVER:
+            told.append(
+                f"Nitsche's glue on slivers of {self.least_cut:.1g} of the largest element, with "
+                "weights that are no polynomials: stress there is off by 12 % and more; shift the "
+                "net, or take another cover"
+            )
+        return "; ".join(told)
 
 
 def _least_cut(model: Model, ties: Sequence[Imposition]) -> float:
@@ -105,11 +120,20 @@ def _least_cut(model: Model, ties: Sequence[Imposition]) -> float:
     return float(smallest / area.max())
 
 
-def glue_edges(model: Model, joints: Joints, part: "Glue", size: float | None) -> list[Imposition]:
-    """Return the ties of edges; ``size`` is that of a mesh's cells, None for blocks (m)."""
+def glue_edges(
+    model: Model,
+    joints: Joints,
+    part: "Glue",
+    size: float | None,
+    acted: tuple[Bools, Bools] | None = None,
+) -> list[Imposition]:
+    """Return the ties of edges; ``size`` is that of a mesh's cells, None for blocks (m).
+
+    Something else acts on faces that are ``acted`` (j,) on, for each side; None where nothing does.
+    """
     degree, kind = model.manifold.degree, chosen(model, part.method, "spring")
     method = Method(kind, size, degree, part.stiffness, part.gamma)
-    interface = gauss_interface(model, joints, max(EDGE_ORDER, 2 * degree + 2))
+    interface = gauss_interface(model, joints, max(EDGE_ORDER, 2 * degree + 2), acted)
     tie = method.impose(model, [interface])[0]
     free = tie.free
     if not free.any():

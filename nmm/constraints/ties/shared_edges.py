@@ -1,5 +1,7 @@
 """Interfaces between bodies: the edges that they share, and which of these are bonded for good."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from covers.cutting.components import components
@@ -25,11 +27,20 @@ def shared_edges(model: Model) -> Joints:
     return find_joints(sides(model.manifold).surface(start.frames, start.deformation))
 
 
-def gauss_interface(model: Model, joints: Joints, order: int = EDGE_ORDER) -> Interface:
-    """Interface of Gauss points of shared edges; its pieces are the joints."""
+def gauss_interface(
+    model: Model,
+    joints: Joints,
+    order: int = EDGE_ORDER,
+    acted: tuple[Bools, Bools] | None = None,
+) -> Interface:
+    """Interface of Gauss points of shared edges; its pieces are the joints.
+
+    On joints (j,) that are ``acted`` on, for each side, something else acts.
+    """
     points, weight = segment_rule(joints.start, joints.end, order)
     joint = np.repeat(np.arange(len(joints)), weight.shape[1])
-    return _interface(model, joints, joint, points.reshape(-1, 2), weight.ravel())
+    found = _interface(model, joints, joint, points.reshape(-1, 2), weight.ravel())
+    return found if acted is None else replace(found, acted=(acted[0][joint], acted[1][joint]))
 
 
 def corner_interface(model: Model, joints: Joints, start: State) -> Interface:

@@ -64,12 +64,18 @@ class ConsistentBonds:
 
     @classmethod
     def of(
-        cls, model: Model, joints: ContactPoints, laws: ContactLaws, seamless: Bools
+        cls,
+        model: Model,
+        joints: ContactPoints,
+        laws: ContactLaws,
+        seamless: Bools,
+        acted: tuple[Bools, Bools] | None = None,
     ) -> Self | None:
         """Find the tractions on bonds where they lie at the start; None where springs hold all.
 
         Laws with a stiffness of their own keep it. Where matter is ``seamless`` (m,) across a bond
-        that softens, its law acts in the mixed form.
+        that softens, its law acts in the mixed form. Something else acts on faces that are
+        ``acted`` (m,) on, for each side; None where nothing does.
         """
         wanted = joints.bonded & ~laws.has_stiffness[joints.interface]
         if not laws.consistent or not wanted.any():
@@ -79,7 +85,8 @@ class ConsistentBonds:
         places = [edges.at(*side) for side in points.sides]
         elements = [edges.element[edge] for edge, _ in points.sides]
         reach = [_reach(model, own, points, area) for own in elements]
-        found = AverageTraction.of(model, elements, places, -points.normal, area, reach)
+        sides = None if acted is None else [one[wanted] for one in acted]
+        found = AverageTraction.of(model, elements, places, -points.normal, area, reach, sides)
         penalty = SAFETY * found.least
         bending = float(model.modulus.max()) * points.spring_factor / points.length
         rows = [(one.unknowns, one.values) for one in found.fluxes]

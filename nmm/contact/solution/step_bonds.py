@@ -45,10 +45,15 @@ class StepBonds:
 
     @classmethod
     def of(
-        cls, model: Model, joints: ContactPoints, laws: ContactLaws, seamless: Bools
+        cls,
+        model: Model,
+        joints: ContactPoints,
+        laws: ContactLaws,
+        seamless: Bools,
+        acted: tuple[Bools, Bools] | None = None,
     ) -> tuple["StepBonds", ContactPoints]:
         """Find them among joints (m,), see `ConsistentBonds.of`; return the joints as held."""
-        terms = ConsistentBonds.of(model, joints, laws, seamless)
+        terms = ConsistentBonds.of(model, joints, laws, seamless, acted)
         return cls(laws, terms), joints if terms is None else terms.tied(joints, laws)
 
     def tied(

@@ -1,0 +1,31 @@
+"""Bonds on whose faces a scene lets something else act."""
+
+import numpy as np
+
+from integration.arrays import Bools
+from nmm.contact.points.contact_points import ContactPoints
+from nmm.effects.acted_faces import ActedFaces, shared_stretches, wet_faces
+from nmm.effects.base import Setup
+
+
+def acted_on(setup: Setup, joints: ContactPoints) -> tuple[Bools, Bools] | None:
+    """Return on which faces (m,) beside joint points something acts; None where nothing does."""
+    stretches = shared_stretches(setup.model, joints.edge_a, joints.edge_b)
+    return ActedFaces.of(setup).beside(stretches)
+
+
+def loaded_twice(setup: Setup, joints: ContactPoints) -> str:
+    """Tell loads on both faces of bonds that Nitsche's terms hold; empty without any."""
+    tied = joints.take(joints.tied)
+    if not len(tied):
+        return ""
+    edges = np.unique(np.stack([tied.edge_a, tied.edge_b]), axis=1)
+    found = ActedFaces.of(setup).twice(shared_stretches(setup.model, *edges))
+    found = found or wet_faces(setup)
+    if not found:
+        return ""
+    return (
+        f"{found} of bonds by Nitsche's terms, which take the mean stress of both sides for the "
+        "traction: faces part, and bonds fail early, by the loads on them over twice the penalty; "
+        'use [contact] bonds = "spring" with bond_stiffness = 100'
+    )
