@@ -9,6 +9,10 @@ if TYPE_CHECKING:
     from nmm.constraints.supports import Supports
 
 
+# Strain below which matter rests but for rounding, as in ground at rest under its stress.
+STRAIN_AT_REST = 1e-12
+
+
 def supports(run: EndedRun) -> Findings:
     """Audit the energy in springs along held edges of meshes, beside that of the matter.
 
@@ -27,7 +31,9 @@ def supports(run: EndedRun) -> Findings:
         for one in edges
         if one.springs is not None
     }
-    if not energy or not strained > 0:
+    volume = float(stepper.model.element_area.sum()) * stepper.model.thickness
+    at_rest = float(stepper.model.modulus.max()) * volume * STRAIN_AT_REST**2 / 2
+    if not energy or not strained > at_rest:
         return
     softest = max(energy, key=lambda name: energy[name])
     share = sum(energy.values()) / strained
