@@ -1,6 +1,7 @@
 """Springs in prestressed ground: they carry the initial stress in the drawn geometry."""
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,6 +13,9 @@ from nmm.assembly.tractions.donors import across
 from nmm.assembly.tractions.moments import with_moment
 from nmm.constraints.imposition import Imposition
 from nmm.effects.base import Setup
+
+if TYPE_CHECKING:
+    from nmm.contact.detection.joints import Joints
 
 # Of the length of an edge: points lie within a joint up to rounding.
 WITHIN = 1e-9
@@ -85,12 +89,22 @@ def stretched(stiffness: Floats, force: Floats) -> Floats:
 
 def faces_another(setup: Setup, place: Place) -> Bools:
     """Points (m,) on edges that face another body, whose contact or bond has the traction."""
+    return on_joints(facing_joints(setup), place)
+
+
+def facing_joints(setup: Setup) -> "Joints":
+    """Return the edges along which bodies touch or are bonded."""
     from nmm.constraints.ties.shared_edges import bonded_stiffness, shared_edges  # finds contacts
 
     joints = shared_edges(setup.model)
     if setup.scene.contact is None:
         _, sprung, glued = bonded_stiffness(setup, joints)
         joints = joints.take(sprung | glued)
+    return joints
+
+
+def on_joints(joints: "Joints", place: Place) -> Bools:
+    """Return which points (m,) of edges lie on joints."""
     found = np.zeros(len(place), dtype=bool)
     assert place.edge is not None
     for edges in (joints.edge_a, joints.edge_b):  # two sides

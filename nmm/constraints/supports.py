@@ -18,7 +18,7 @@ from nmm.constraints.driven_bodies import DrivenBodies, driven
 from nmm.constraints.followed_supports import exerted, followed, with_those_gone
 from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface
-from nmm.constraints.laid_springs import faces_another, laid_under_stress
+from nmm.constraints.laid_springs import facing_joints, laid_under_stress, on_joints
 from nmm.constraints.nitsche.volume_lift import sharing
 from nmm.constraints.points_under_stress import laid_at_points
 from nmm.constraints.ties.tied_interfaces import TiedInterfaces
@@ -65,9 +65,9 @@ class Supports(TiedInterfaces):
         method = support_method(setup.model, part, size, highest_degree(cover), setup.only_strained)
         interfaces = [declared(setup, support, method) for support in scene.supports]
         edges = [i for i, one in enumerate(interfaces) if one.first.normal is not None]
-        on_joints = _on_joints(setup, method, [interfaces[i] for i in edges])
+        shared = _on_joints(setup, method, [interfaces[i] for i in edges])
         if part.method == "auto":
-            edges = [i for i in edges if interfaces[i].name not in on_joints]
+            edges = [i for i in edges if interfaces[i].name not in shared]
         # Springs need no traction: at points that are no edge, and on faces of joints, where the
         # support and the neighbour share it.
         found = replace(method, kind="penalty").impose(setup.model, interfaces)
@@ -79,8 +79,8 @@ class Supports(TiedInterfaces):
         n_unknowns, in_time = setup.model.manifold.n_unknowns, scene.inertia is not None
         turns = turning(setup) if lets_turn(setup.model, interfaces) else None
         caution = sudden_starts(setup, interfaces)
-        if on_joints and part.method != "auto":
-            caution = "; ".join(filter(None, (caution, _shared_tractions(on_joints))))
+        if shared and part.method != "auto":
+            caution = "; ".join(filter(None, (caution, _shared_tractions(shared))))
         return cls(found, n_unknowns, setup.start, in_time, turns, setup.model, caution)
 
     @property
@@ -232,9 +232,10 @@ def _sharing(supports: Sequence[Imposition]) -> list[Imposition]:
 
 def _on_joints(setup: Setup, method: Method, edges: Sequence[Interface]) -> list[str]:
     """Return the names of those supports by Nitsche's method that hold faces of joints."""
-    if method.kind != "nitsche":
+    if method.kind != "nitsche" or setup.model.manifold.n_bodies == 1:
         return []
-    return [one.name for one in edges if faces_another(setup, one.first).any()]
+    joints = facing_joints(setup)
+    return [one.name for one in edges if on_joints(joints, one.first).any()]
 
 
 def _shared_tractions(names: Sequence[str]) -> str:
