@@ -88,6 +88,10 @@ class Supports(TiedInterfaces):
         """See `Effect.caution`: ground that jumps at once, tractions that neighbours share."""
         return self._caution
 
+    def join_run(self, state: State) -> None:
+        """See `Effect.join_run`: the first supports of a run hold the material as it is."""
+        self.jumps.ties = followed((), self.ties, state)
+
     def follow(self, change: "Change") -> "Supports":
         """Return the supports of the new model; those that are new hold the material as it is.
 

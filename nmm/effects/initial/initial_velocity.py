@@ -6,7 +6,7 @@ from typing import Self
 import numpy as np
 
 from covers.approximation.manifold import Manifold
-from integration.arrays import Floats
+from integration.arrays import Bools, Floats
 from integration.plane_vectors import counterclockwise
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
@@ -43,6 +43,18 @@ class InitialVelocity(Effect):
     def begin(self, state: State) -> State:
         """Return the state with the velocities set."""
         return replace(state, velocity=self._model.manifold.rigid_modes @ self.motion.ravel())
+
+
+def setting_out(setup: Setup, state: State, blocks: Bools) -> State:
+    """Return a state in which some blocks (N,) begin to move as ``[[initial_velocities]]`` say.
+
+    A stage at rest before has left them without a velocity of their own.
+    """
+    manifold = setup.model.manifold
+    bodies = np.zeros(manifold.n_bodies, dtype=bool)
+    bodies[manifold.element_body] = blocks[manifold.element_region]
+    begun = InitialVelocity.from_setup(setup).begin(state).velocity
+    return replace(state, velocity=np.where(bodies[manifold.unknown_body], begun, state.velocity))
 
 
 def from_middle(manifold: Manifold) -> Floats:

@@ -44,6 +44,8 @@ class Stage:
         Whether displacements count from its start.
     material
         (N,) that of each block, in the order of the scene.
+    sets_out
+        (N,) blocks that begin to move in it: there, and in motion in no stage since they arrived.
     """
 
     name: str
@@ -54,6 +56,7 @@ class Stage:
     acting: StageLoads
     reset: bool
     material: Ints
+    sets_out: Bools
 
     @property
     def in_time(self) -> bool:
@@ -102,7 +105,7 @@ def _resolved(
     listed: dict[str, tuple[str, ...] | None] = dict.fromkeys(KINDS)
     members, before = None, frozenset[str]()
     held = frozenset[str]()
-    material = np.asarray(regions.material)
+    material, moved = np.asarray(regions.material), np.zeros(len(regions), dtype=bool)
     for number, table in enumerate(scene.stages):  # a handful of stages
         place = _Place(scene, number, origin)
         present = _present(table, present, regions, place)
@@ -116,6 +119,9 @@ def _resolved(
         _refuse_absent(table, there, place)
         named, names, faded = named_in(scene, table, listed, there, before)
         holding = frozenset(one.name for one in named["supports"])
+        moves = table.duration is not None and scene.inertia is not None
+        sets_out = present & ~moved & moves
+        moved = (moved & present) | sets_out
         yield Stage(
             table.name,
             scene.model_copy(update=named | keys_of_stage(scene, table, named, members, there)),
@@ -125,6 +131,7 @@ def _resolved(
             StageLoads(names - before, faded, table.release, holding - held, scene.in_time),
             table.reset_displacements,
             material,
+            sets_out,
         )
         before, held = names, holding
 

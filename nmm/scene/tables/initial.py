@@ -19,7 +19,7 @@ from nmm.scene.fields import (
 
 
 class InitialVelocityTable(Frozen):
-    """Velocity of blocks at the start.
+    """Velocity of blocks at the start, or as the first stage with a duration sets them in motion.
 
     A block spins about its own centroid, with all pieces into which cracks part it; pieces of a
     tessellation, or of a block that joints cut, are blocks.

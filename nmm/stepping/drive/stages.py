@@ -147,6 +147,10 @@ def _entered(
     else:
         state = replace(state, load_factor=0.0, velocity=still, acceleration=still)
     change = old.change(begun_with(staged, old.setup.geometry), state)
+    if stage.scene.initial_velocities and stage.sets_out.any():
+        from nmm.effects.initial.initial_velocity import setting_out
+
+        change = replace(change, state=setting_out(change.setup, change.state, stage.sets_out))
     stepper.begin_anew(change, integrator)
     return change
 
