@@ -2,10 +2,11 @@
 
 In time a piece is judged only once a wave has crossed it since it came to be: until then it has the
 stress that it was born with, which its new faces have not relieved yet. Without this the number of
-pieces would be one of the time step.
+pieces would be one of the time step. Water in the pores opens planes by the whole of its pressure
+and takes it from what presses on them (Terzaghi; Jaeger, Cook and Zimmerman 2007, section 4.7).
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Self
@@ -14,8 +15,10 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.state import State
+from nmm.assembly.stress_points import PressureAt
 from nmm.effects.base import Effect, Setup
 from nmm.effects.event import Event
+from nmm.materials.tensors import ISOTROPIC
 from nmm.splitting.cuts import Shapes
 from nmm.splitting.division import SplitRules, allowed, first_cuts, replaced
 from nmm.splitting.outlines import outlines
@@ -33,11 +36,15 @@ CONSTANTS = ("tensile_strength", "cohesion", "friction_angle")
 
 @dataclass(frozen=True)
 class SplitLaw:
-    """Strength of a material, how far its blocks may split, and where they are judged."""
+    """Strength of a material, how far its blocks may split, and where they are judged.
+
+    ``effective`` says whether by the stress of the grains or that of grains and water together.
+    """
 
     strength: BlockStrength
     rules: SplitRules
     where: Where
+    effective: bool
 
 
 @dataclass(frozen=True)
@@ -69,6 +76,7 @@ class Splitting(Effect):
 
     def __init__(self, setup: Setup, laws: Mapping[int, SplitLaw]) -> None:
         self._setup, self._laws, self.kept = setup, laws, KeptWhole()
+        self._pores: Sequence[PressureAt] = ()
         manifold = setup.model.manifold
         self.born = np.full(manifold.n_bodies, -np.inf)
         material = np.zeros(manifold.n_bodies, dtype=np.int64)
@@ -91,7 +99,8 @@ class Splitting(Effect):
         names, laws = list(setup.scene.materials), {}
         for name, table in setup.scene.splitting.items():  # a handful of materials
             rules = SplitRules(table.smallest_block, table.most_blocks)
-            laws[names.index(name)] = SplitLaw(strength_of(table), rules, table.judged_at)
+            where, effective = table.judged_at, table.stress == "effective"
+            laws[names.index(name)] = SplitLaw(strength_of(table), rules, where, effective)
         return cls(setup, laws)
 
     def follow(self, change: "Change") -> "Splitting":
@@ -105,15 +114,21 @@ class Splitting(Effect):
         new.born = np.where(fresh, change.state.time, self.born[parent])
         return new
 
+    def receive_pore_pressures(self, pressures: Sequence[PressureAt]) -> None:
+        """See `Effect.receive_pore_pressures`."""
+        self._pores = pressures
+
     def event(self, view: "View") -> Event | None:
         """Return the event of all splits in a state, or None."""
-        stress, state = view.stress, view.state
+        total, state = view.stress, view.state
+        effective = total + ISOTROPIC * self._pore_pressure(state.time)[:, None]
         rests = self._rests(state.time)
         polygons, home = None, np.zeros(0, dtype=np.int64)
         splits: dict[int, Shapes] = {}
         pulled, kept = 0, KeptWhole()
         for number, law in self._laws.items():  # a handful of materials
             sites = self._sites[number]
+            stress = effective if law.effective else total
             judged = law.strength.judged(np.asarray(sites.weights @ stress))
             order = sites.in_order(judged.use)
             over = order[(judged.use[order] >= 1) & rests[sites.body[order]]]
@@ -146,6 +161,14 @@ class Splitting(Effect):
     def carry(self, carried: tuple[int, float, Floats]) -> None:
         blocks, use, self.born = carried
         self.kept = KeptWhole(blocks, use)
+
+    def _pore_pressure(self, time: float) -> Floats:
+        """(E,) pressure of the water at the middles of elements (Pa)."""
+        elements = self._setup.model.manifold.elements
+        total, every = np.zeros(len(elements)), np.arange(len(elements))
+        for pressure in self._pores:  # of effects
+            total += pressure(every, elements.centroids, time)
+        return total
 
     def _rests(self, time: float) -> Bools:
         """Which bodies (B,) a wave has crossed since they came to be; all in statics."""

@@ -59,6 +59,12 @@ class SplittingTable(Frozen):
         "the one of its elements that is nearest to its strength",
         examples=["elements"],
     )
+    stress: Literal["effective", "total"] = Field(
+        default="effective",
+        description='"effective" or "total": whether the stress that is judged is that of grains '
+        "and water together, plus the pressure of the water (Terzaghi), or without it",
+        examples=["total"],
+    )
     options: Options = Field(default={}, description="options of a law of one's own")
 
     @model_validator(mode="after")

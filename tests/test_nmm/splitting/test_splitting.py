@@ -116,6 +116,35 @@ def test_a_net_over_the_column_splits_at_the_same_load_along_the_same_plane():
     assert found.manifold.n_bodies == 2
 
 
+SATURATED = """
+[seepage]
+[[heads]]
+name = "pores"
+block = "column"
+head = {head}
+gradient = [0, 1]
+"""
+
+
+@pytest.mark.parametrize(
+    ("unit", "stress", "factor"),
+    [
+        (1e6, "effective", 1.9),  # s + p = ft
+        (1e6, "total", 2.9),
+        # Coulomb of s1 = p and s2 = p - q: q = 2 c N - p (N^2 - 1), N = tan(45 + 37 / 2 degrees).
+        (-1e7, "effective", 1.8853483 - 0.1 * (np.tan(np.deg2rad(63.5)) ** 2 - 1)),
+    ],
+)
+def test_water_in_pores_takes_from_the_strength_of_blocks(unit, stress, factor):
+    # Water of 1 MPa changed nothing: columns carried 1.5 and 1.2 times what they may.
+    text = column(unit).replace("2400\n", "2400\nhydraulic_conductivity = 1e-6\n")
+    text = text.replace("[splitting.concrete]\n", f'[splitting.concrete]\nstress = "{stress}"\n')
+    found = run(text + SATURATED.format(head=1e6 / 9810))
+    assert found.summary.status == "failure_load", found.summary.sentence
+    # The tolerance of the load.
+    assert found.summary.failure_factor == pytest.approx(factor, rel=2e-4)
+
+
 DROP = """
 title = "drop"
 plane = "stress"
