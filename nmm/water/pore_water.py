@@ -25,6 +25,7 @@ from nmm.effects.base import Instant, Setup
 from nmm.errors import Fault, SceneError
 from nmm.quantity import Quantity
 from nmm.water.head_problem import filling_of, head_problem
+from nmm.water.wet_faces import total_contact
 
 if TYPE_CHECKING:
     from nmm.water.free_surface import Filling
@@ -49,6 +50,7 @@ class PoreWater(FieldEffect):
     """
 
     _turned: "PoreStress | None" = None
+    _caution = ""
 
     def __init__(
         self,
@@ -90,7 +92,14 @@ class PoreWater(FieldEffect):
         conductivity = conductivities(setup, "hydraulic_conductivity")
         weight = table.unit_weight
         finite = _finite(setup)
-        return cls(course, stress, conductivity, ground, weight, second, filling, finite)
+        found = cls(course, stress, conductivity, ground, weight, second, filling, finite)
+        found._caution = total_contact(setup)
+        return found
+
+    @property
+    def caution(self) -> str:
+        """See `Effect.caution`: contact of porous blocks that knows nothing of their water."""
+        return self._caution
 
     @property
     def turns_with_bodies(self) -> str:

@@ -68,3 +68,49 @@ def test_bodies_that_give_way_in_place_of_their_dampers_are_told(functions, pena
     }
     found = prepared(scene).identity().warnings
     assert any("give way in place of the damper" in one for one in found) == told
+
+
+WET = """
+plane = "strain"
+[materials.m]
+young_modulus = 1e9
+poisson_ratio = 0.2
+density = 2000.0
+hydraulic_conductivity = 1e-6
+[interfaces.i]
+friction_angle = 0.5
+[[blocks]]
+name = "floor"
+material = "m"
+vertices = [[0, 0], [3, 0], [3, 1], [0, 1]]
+[[blocks]]
+name = "block"
+material = "m"
+vertices = [[1, 1], [2, 1], [2, 2], [1, 2]]
+[gravity]
+[contact]
+[seepage]
+[[heads]]
+name = "h"
+block = "all"
+head = 2.0
+[[supports]]
+name = "s"
+segment = [[0, 0], [3, 0]]
+fix = ["x", "y"]
+"""
+PRESSED = '[[water_pressures]]\nname = "w"\nlevel = 2\nsegment = '
+
+
+@pytest.mark.parametrize(
+    ("water", "told"),
+    [
+        ("", True),
+        (PRESSED + "[[2, 1], [2, 2]]", True),  # beside the block alone
+        (PRESSED + "[[1, 1], [2, 1]]", False),
+    ],
+    ids=["none", "beside", "in the joint"],
+)
+def test_porous_blocks_that_meet_without_water_in_their_joint_are_told(water, told):
+    found = prepared(tomllib.loads(WET + water)).identity().warnings
+    assert any("those of total stress" in one for one in found) == told
