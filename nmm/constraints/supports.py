@@ -26,6 +26,7 @@ from nmm.constraints.turned_axes import turning
 from nmm.effects.base import Instant, Setup
 from nmm.effects.motion.ground import Ground
 from nmm.effects.motion.reactions import Reactions
+from nmm.effects.motion.still_ground import still_ground
 from nmm.frozen import MadeOnce
 from nmm.geometry.tessellation.cover_types import highest_degree
 
@@ -78,14 +79,14 @@ class Supports(TiedInterfaces):
             found = laid_at_points(setup, laid_under_stress(setup, found))
         n_unknowns, in_time = setup.model.manifold.n_unknowns, scene.inertia is not None
         turns = turning(setup) if lets_turn(setup.model, interfaces) else None
-        caution = sudden_starts(setup, interfaces)
-        if shared and part.method != "auto":
-            caution = "; ".join(filter(None, (caution, _shared_tractions(shared))))
+        shares = bool(shared) and part.method != "auto"
+        told = sudden_starts(setup, interfaces), _shared_tractions(shared) if shares else ""
+        caution = "; ".join(filter(None, (*told, still_ground(scene))))
         return cls(found, n_unknowns, setup.start, in_time, turns, setup.model, caution)
 
     @property
     def caution(self) -> str:
-        """See `Effect.caution`: ground that jumps at once, tractions that neighbours share."""
+        """See `Effect.caution`: jumps of the ground, members that stay, shared tractions."""
         return self._caution
 
     def join_run(self, state: State) -> None:

@@ -114,3 +114,34 @@ PRESSED = '[[water_pressures]]\nname = "w"\nlevel = 2\nsegment = '
 def test_porous_blocks_that_meet_without_water_in_their_joint_are_told(water, told):
     found = prepared(tomllib.loads(WET + water)).identity().warnings
     assert any("those of total stress" in one for one in found) == told
+
+
+ANCHORED = """
+plane = "strain"
+duration = 0.1
+[materials.m]
+young_modulus = 1e9
+poisson_ratio = 0.2
+density = 2000.0
+[[blocks]]
+name = "wall"
+material = "m"
+vertices = [[0, 0], [1, 0], [1, 3], [0, 3]]
+[inertia]
+[[springs]]
+name = "anchor"
+points = [[1, 2], [5, 2]]
+blocks = ["wall", "ground"]
+stiffness = 1e6
+[[supports]]
+name = "base"
+segment = [[0, 0], [1, 0]]
+fix = ["x", "y"]
+"""
+SHAKEN = 'motion = { x = "quake" }\n[records.quake]\nsamples = [[0, 0], [0.05, 1], [0.1, 0]]\n'
+
+
+@pytest.mark.parametrize(("motion", "told"), [(SHAKEN, True), ("", False)])
+def test_anchors_in_ground_that_stays_beside_a_base_that_moves_are_told(motion, told):
+    found = prepared(tomllib.loads(ANCHORED + motion)).identity().warnings
+    assert any("ground of anchor stays" in one for one in found) == told
