@@ -6,6 +6,7 @@ import numpy as np
 import shapely
 
 from covers.approximation.manifold import Manifold
+from covers.approximation.sides import sides_at
 from integration.arrays import Bools, Floats, Ints
 from integration.plane_vectors import clockwise
 from integration.segments import segment_rule
@@ -62,6 +63,8 @@ class Place:
 def at_point(manifold: Manifold, point: Floats, regions: Bools | None = None) -> Place:
     """Return the material at a point: one element for each body that touches it, in equal shares.
 
+    On a crack each of its faces has a share.
+
     Parameters
     ----------
     point
@@ -74,8 +77,7 @@ def at_point(manifold: Manifold, point: Floats, regions: Bools | None = None) ->
     found = np.flatnonzero(shapely.dwithin(polygons, shapely.points(point), near))
     if regions is not None:
         found = found[regions[manifold.element_region[found]]]
-    _, first = np.unique(manifold.element_body[found], return_index=True)
-    elements = found[first]
+    elements = sides_at(manifold, found, point) if len(found) > 1 else found
     points = np.tile(point, (len(elements), 1))
     weight = np.full(len(elements), 1 / max(len(elements), 1))
     return Place(material_points(manifold, elements, points), elements, weight, points)

@@ -6,6 +6,7 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
+import nmm
 from integration.polygons import Polygons
 from nmm.assembly.places import on_edges
 from nmm.errors import NmmError
@@ -40,6 +41,47 @@ def test_pressure_on_the_faces_is_tension_at_the_ends() -> None:
         face_traction=lambda p, n: -n,
     )
     assert pressed.opening == pytest.approx(pulled.opening, rel=2e-3)
+
+
+MOUTH = """
+plane = "strain"
+[materials.m]
+young_modulus = 1e9
+poisson_ratio = 0.2
+[[blocks]]
+material = "m"
+vertices = [[0, 0], [2, 0], [2, 1], [0, 1]]
+[[cracks]]
+name = "notch"
+points = [[1, 1], [1, 0.3]]
+[[supports]]
+name = "foot"
+segment = [[0, 0], [2, 0]]
+fix = ["x", "y"]
+[[loads]]
+name = "weight"
+kind = "point"
+point = [1, {height}]
+force = [0, -1e4]
+[[monitors]]
+name = "left"
+point = [0.9, 0.9]
+[[monitors]]
+name = "right"
+point = [1.1, 0.9]
+[formulation.cover]
+type = "quads"
+size = 0.25
+"""
+
+
+@pytest.mark.parametrize("height", [1.0, 0.6])
+def test_what_acts_at_a_point_of_a_crack_acts_on_both_faces(height: float) -> None:
+    # The body is its own mirror image. One face, that of the first element, bore all of the load.
+    found = nmm.run(nmm.parse_scene(MOUTH.format(height=height))).history
+    for way, sign in (("ux", -1), ("uy", 1)):
+        left, right = (found[f"monitor:{name}:{way}"][-1] for name in ("left", "right"))
+        assert left == pytest.approx(sign * right, rel=1e-9)
 
 
 @pytest.mark.slow
