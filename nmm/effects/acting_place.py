@@ -15,6 +15,18 @@ if TYPE_CHECKING:
     OnEdges = PlacedTable | FreeFieldTable | ViscousBoundaryTable
 
 
+SINGULAR_ORDER = 24
+"""Degree of quadrature of roots of the distance from an end of a part: to 2e-5 of the largest."""
+
+
+def traction_order(setup: Setup, order: int) -> int:
+    """Return the degree of quadrature of tractions along edges, at least ``order``.
+
+    Functions of crack tips and corners are no polynomials along edges that lead to them.
+    """
+    return max(order, SINGULAR_ORDER) if len(setup.model.manifold.singular) else order
+
+
 def acting_place(setup: Setup, key: str, table: "PlacedTable", order: int) -> Place:
     """Return the material point of a table ``[[key]]``; else what `edge_place` returns.
 

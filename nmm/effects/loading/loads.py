@@ -11,7 +11,7 @@ from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
 from nmm.assembly.places import Place
 from nmm.assembly.state import State
-from nmm.effects.acting_place import acting_place
+from nmm.effects.acting_place import acting_place, traction_order
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.loading.load_factor import load_factor
 
@@ -110,7 +110,7 @@ def _load(setup: Setup, load: "SceneLoad") -> Load:
         order, total = LEAST_ORDER, np.array(load.force)
     else:
         # The work of a uniform traction has the degree of the displacements.
-        order = max(LEAST_ORDER, setup.model.manifold.degree)
+        order = traction_order(setup, max(LEAST_ORDER, setup.model.manifold.degree))
         total = np.array(load.traction) * setup.model.thickness
     place = acting_place(setup, "loads", load, order)
     force, factor = place.weight[:, None] * total, load_factor(setup, load)

@@ -8,7 +8,7 @@ from integration.arrays import Floats
 from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
 from nmm.assembly.state import State
-from nmm.effects.acting_place import edge_place
+from nmm.effects.acting_place import edge_place, traction_order
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 from nmm.effects.loading.load_factor import load_factor
 from nmm.effects.loading.surface_pressure import PressedSurfaces, SurfacePressure, along_surface
@@ -93,7 +93,7 @@ class SurfacePressures(Effect):
 def _pressure(setup: Setup, load: "LoadTable") -> SurfacePressure:
     assert load.pressure is not None
     # As many points on a part as the displacement has functions along it.
-    order = 2 * max(setup.model.manifold.degree, 1) + 1
+    order = traction_order(setup, 2 * max(setup.model.manifold.degree, 1) + 1)
     place = edge_place(setup, "loads", load, order)
     size, factor = load.pressure * setup.model.thickness, load_factor(setup, load)
     given = load.name, place, along_surface(place), size, factor, load.history is None
