@@ -89,8 +89,11 @@ class Drive:
 
         under = at or self.checkpoints.begin(UnderLoad.at_start(self.made.start, loads))
         assert isinstance(under, UnderLoad)
-        keep = self.checkpoints.keep
-        return run_growth(self.made.stepper, self.recorder, under, loads, self.progress, keep)
+        scene, keep = self.made.scene, self.checkpoints.keep
+        dead = scene.gravity is not None
+        dead |= scene.loading is not None and scene.loading.scaled != "all"
+        given = self.made.stepper, self.recorder, under, loads, self.progress, keep
+        return run_growth(*given, dead=dead)
 
     def _under_loads(self, at: "RunPosition | None", loads: LoadSchedule) -> EndedRun:
         state, verdict = self._phases.under_loads(self.made.start, loads, at, self._beyond())

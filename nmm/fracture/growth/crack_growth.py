@@ -31,6 +31,7 @@ class CrackGrowth(GrowingCracks):
         super().__init__(setup, sofar)
         self._path = GrowthPath() if path is None else path
         self.parted = parted
+        self.dead_factor = 0.0
         # A crack that nucleates frees its energy under the load at which the strength was reached.
         self.at_toughness = self._followed and not setup.geometry.nuclei
 
@@ -42,12 +43,12 @@ class CrackGrowth(GrowingCracks):
         path = self._path.begun_anew() if begun else self._path
         return CrackGrowth(change.setup, self._grown_so_far(change), path, parted)
 
-    def arrived(self, factor: float, stored: float) -> float:
+    def arrived(self, factor: float, stored: float, freed: float) -> float:
         if not self._followed:
             return 0.0
         before = self._path
-        self._path = before.on(self._length, factor, stored)
-        return self._path.beyond_secant() - before.beyond_secant()
+        self._path = before.on(self._length, factor, stored, freed, self.dead_factor)
+        return self._path.beyond_chords() - before.beyond_chords()
 
     @property
     def _followed(self) -> bool:
@@ -60,7 +61,7 @@ class CrackGrowth(GrowingCracks):
         if not ended or not len(self._path.equilibria):
             return booked
         # The energy that the last cut released by itself is booked already.
-        let_go = float(self._path.equilibria[-1, 2]) - stored
+        let_go = float(self._path.equilibria[-1, 3]) - stored
         short = self._short if self.parted else None
         return booked - let_go + self._path.to_the_end(self._length, short)
 

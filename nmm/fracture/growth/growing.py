@@ -43,6 +43,8 @@ class GrowingCracks(Effect):
     """Whether the tractions on new faces are released gradually (`ReleasedTractions`)."""
     at_toughness: bool = False
     """Whether the load keeps cracks at their toughness, so that they free their fracture energy."""
+    dead_factor: float = 0.0
+    """Load factor that would open the critical tip as what no factor scales does."""
     parted: bool = False
     """Whether a piece came free at the toughness: no bond holds it to what it was cut off."""
 
@@ -107,10 +109,11 @@ class GrowingCracks(Effect):
         """Largest `crowding` of tips that have grown, and of those that are left."""
         return max(self._sofar.crowded, crowding(self._setup.model.cut, self._measured.tip))
 
-    def arrived(self, factor: float, stored: float) -> float:
-        """Record an equilibrium at the toughness; return the energy (J) beyond the secant's.
+    def arrived(self, factor: float, stored: float, freed: float) -> float:
+        """Record an equilibrium at the toughness; return the energy (J) beyond the chord's.
 
-        ``stored`` is the energy (J) stored under the load factor ``factor``. See `GrowthPath`.
+        ``stored`` is the energy (J) stored under the load factor ``factor``, ``freed`` what growth
+        is booked to have freed (J). See `GrowthPath`.
         """
         return 0.0
 

@@ -9,8 +9,8 @@ from nmm.scene.rules.unread_tables import Finding, Tables, rows, table
 
 # Keys of dynamic growth alone.
 IN_TIME = ("speed", "branching")
-# Tables whose actions one load factor does not scale.
-NOT_SCALED = ("contact", "gravity", "heat", "inertia", "initial_stresses", "seepage", "stages")
+# Tables beside which intensities may not be affine in one load factor.
+NOT_SCALED = ("contact", "heat", "inertia", "initial_stresses", "seepage", "stages")
 
 
 def fracture_contradictions(data: Tables) -> Iterator[Finding]:
@@ -43,10 +43,6 @@ def _control(data: Tables) -> Iterator[Finding]:
         if data.get(key) not in (None, (), []):
             remedy = f'use control = "loads", or remove [{key}]'
             yield path, f'"toughness" with [{key}]', expected, remedy
-    scaled = table(data, "loading").get("scaled", "all")
-    if scaled != "all":
-        remedy = 'use control = "loads", or scaled = "all"'
-        yield path, f'"toughness" with scaled = {scaled}', expected, remedy
     alone = "loading" in data and not data.get("loads")
     for _, row in rows(data, "supports"):
         if driven(row) and not (alone and row.get("history") is None):

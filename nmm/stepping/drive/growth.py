@@ -1,8 +1,9 @@
 """Cracks that grow in equilibrium, piece by piece: the load factor follows the toughness.
 
 Every step finds the factor at which the most critical tip is at its toughness, which with linear
-matter and loads of one factor is a matter of scale. The crack then grows by a piece, and the next
-step finds the next factor, be it larger or smaller: a path that growing loads could not follow.
+matter and loads of one factor is a matter of scale; beside dead loads intensities are affine in the
+factor. The crack then grows by a piece, and the next step finds the next factor, be it larger or
+smaller: a path that growing loads could not follow.
 """
 
 from collections.abc import Callable
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
 
 # Solutions to find a load factor, and how near to the toughness it brings a tip.
 SECANTS, AT_TOUGHNESS = 20, 1e-9
+# How much larger a factor is tried than one at which no tip feels anything, as dead loads press.
+LARGER = 4.0
 NOT_FELT = "no load factor opens a crack, no tip feels more than the error of its intensities"
 
 
@@ -36,16 +39,18 @@ def run_growth(
     schedule: LoadSchedule,
     progress: Progress,
     keep: Callable[[UnderLoad], UnderLoad] = lambda at: at,
+    dead: bool = False,
 ) -> tuple[State, RunVerdict]:
     """Let cracks grow from where they stand until none can.
 
-    ``at.increment`` is the load factor that is tried next; ``keep`` is shown the end of each step.
+    ``at.increment`` is the load factor that is tried next; ``keep`` is shown the end of each step;
+    ``dead`` says that something acts that no factor scales.
 
     Returns
     -------
     The last state and the verdict.
     """
-    growing = _Growing(stepper, recorder, schedule, progress)
+    growing = _Growing(stepper, recorder, schedule, progress, dead)
 
     def step(at: UnderLoad) -> UnderLoad | RunVerdict:
         found = growing.next(at)
@@ -63,6 +68,7 @@ class _Growing:
     recorder: Recorder
     schedule: LoadSchedule
     progress: Progress
+    dead: bool
 
     def next(self, at: UnderLoad) -> UnderLoad | RunVerdict:
         """Find the load of the present cracks, and let the critical ones grow; or end."""
@@ -78,28 +84,48 @@ class _Growing:
     def _at_toughness(self, at: UnderLoad, fracture: "GrowingCracks") -> "Attempt | RunVerdict":
         """Balance at which the most critical tip is at its toughness, by secants from no load.
 
-        The first of them is exact but where members yield or slide.
+        The first of them is exact but where members yield or slide, or dead loads shear a tip
+        otherwise than the others do.
         """
-        before, had, factor = 0.0, 0.0, at.increment
+        before, had, factor = 0.0, 0.0, at.increment or 1.0
+        if self.dead:
+            still = self._share(at, 0.0, fracture)
+            if isinstance(still, RunVerdict):
+                return still
+            had = still[1]
         for _ in range(SECANTS):
-            trial = self._solved(at, factor)
-            if isinstance(trial, RunVerdict):
-                return trial
-            with self.stepper.clock.phase("events"):
-                reached = partial(fracture.reached, trial.state)
-                share = self.stepper.plan.timed(fracture.name, reached)
-            if share is None:
-                return self._ended("every crack has come to an end", at)
-            if abs(share - 1) < AT_TOUGHNESS:
-                return trial
+            found = self._share(at, factor, fracture)
+            if isinstance(found, RunVerdict):
+                return found
+            trial, share = found
             slope = (share - had) / (factor - before)
-            if not slope > 0:
+            if abs(share - 1) < AT_TOUGHNESS:
+                fracture.dead_factor = share / slope - factor if self.dead and slope else 0.0
+                return trial
+            if self.dead and share == had == 0.0:
+                factor *= LARGER
+                continue
+            if not slope or (slope < 0 and not self.dead):
                 break
             before, had, factor = factor, share, factor + (1 - share) / slope
         if not share and at.changed:
             return self._ended(NOT_FELT, at)
         missed = f"no load factor brings a tip to its toughness, {share:.6g} of it at {factor:.6g}"
         return RunVerdict(FAILED, f"{missed if share else NOT_FELT}: {at.changed or 'at first'}")
+
+    def _share(
+        self, at: UnderLoad, factor: float, fracture: "GrowingCracks"
+    ) -> "tuple[Attempt, float] | RunVerdict":
+        """Balance under a load factor, and what share of its toughness the critical tip feels."""
+        trial = self._solved(at, factor)
+        if isinstance(trial, RunVerdict):
+            return trial
+        with self.stepper.clock.phase("events"):
+            reached = partial(fracture.reached, trial.state)
+            share = self.stepper.plan.timed(fracture.name, reached)
+        if share is None:
+            return self._ended("every crack has come to an end", at)
+        return trial, share
 
     def _solved(self, at: UnderLoad, factor: float) -> "Attempt | RunVerdict":
         try:

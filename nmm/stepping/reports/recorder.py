@@ -99,8 +99,9 @@ class Recorder:
         step = before, attempt, stands or after
         ledger = self.ledger.booked(plan, self.stepper.model, *step, anew=anew)
         if plan.fracture is not None:
-            more = plan.fracture.arrived(after.load_factor, ledger.in_store)
-            ledger = ledger.along(more, plan.fracture.name)
+            name = plan.fracture.name
+            booked = ledger.in_store, ledger.freed(name)
+            ledger = ledger.along(plan.fracture.arrived(after.load_factor, *booked), name)
         self.totals = with_parts(
             totals,
             ledger=ledger,
