@@ -124,14 +124,11 @@ class Drive:
     def _beyond(self) -> Beyond:
         """Return what looks for limit points."""
         stepper = self.made.stepper
-        if (contact := stepper.plan.contact) is None:
+        if stepper.plan.contact is None:
             return unseen
         from nmm.stepping.control.limit_point import LimitPoints
         from nmm.stepping.control.making import hindrances
 
-        # No path has been followed yet from where loads grew beside what yields and softens.
-        limited = any(effect.limited for effect in stepper.plan.bent.values())
-        astray = limited and not contact.laws.brittle.all()
-        if hindrances(stepper, self.made.formulation) or astray:
+        if hindrances(stepper, self.made.formulation):
             return unseen
         return LimitPoints(stepper)

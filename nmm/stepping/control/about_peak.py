@@ -19,6 +19,8 @@ FINER, ROUNDS = 0.25, 3
 # Share of the largest load by which it falls to the places beside it where it is the peak: a corner
 # between them is missed by half of that.
 FLAT = 4e-4
+# Share of the way from the peak that a step goes behind it.
+ONWARD = 0.25
 
 Follow = Callable[[OnPath, "ContactRecord | None", Control, "AboutPeak"], RunVerdict]
 """From a place on a path, with its contact record, by a control; the third is told the places."""
@@ -34,6 +36,8 @@ class AboutPeak:
         The place before the one of the largest load, and its contact record.
     most, behind
         The largest load factor, and that of the place behind.
+    top
+        How far what is controlled has come at the place of the largest.
     end
         How far what is controlled has come at the place behind; None before there is one.
     peak
@@ -46,12 +50,13 @@ class AboutPeak:
     record: "ContactRecord | None"
     most: float = field(init=False)
     behind: float = field(init=False, default=0.0)
+    top: float = field(init=False)
     end: float | None = field(init=False, default=None)
     peak: float = field(init=False, default=0.0)
     unstable: float | None = field(init=False, default=None)
 
     def __post_init__(self) -> None:
-        self.most = self.begin.state.load_factor
+        self.most, self.top = self.begin.state.load_factor, self.begin.gone
         self._last = self.begin, self.record
 
     def see(self, at: OnPath, record: "ContactRecord | None", ways: int = 0) -> None:
@@ -61,10 +66,20 @@ class AboutPeak:
             self.unstable = at.peak
         if at.state.load_factor > self.most:
             (self.begin, self.record), self.end = self._last, None
-            self.most = at.state.load_factor
+            self.most, self.top = at.state.load_factor, at.gone
         elif self.end is None:
             self.end, self.behind = at.gone, at.state.load_factor
         self._last = at, record
+
+    def onward(self, at: OnPath) -> OnPath:
+        """Return a place behind the peak, from where a step is longer the farther the peak is.
+
+        Stiff bodies store little beside what it takes to bring the load down. Not where steps had
+        to be cut.
+        """
+        if at.lost or at.state.load_factor >= self.most:
+            return at
+        return replace(at, advance=max(at.advance, ONWARD * (at.gone - self.top)))
 
     @property
     def through(self) -> float | None:

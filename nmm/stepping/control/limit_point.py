@@ -14,6 +14,7 @@ from nmm.results.tee import Tee
 from nmm.stepping.control.about_peak import AboutPeak, refined
 from nmm.stepping.control.following import run_path
 from nmm.stepping.control.position import OnPath, PathEnd
+from nmm.stepping.control.trials import Trials
 from nmm.stepping.drive.verdict import FAILURE, LimitPoint, RunVerdict
 from nmm.stepping.reports.energies import stored
 from nmm.stepping.reports.recorder import Recorder
@@ -61,6 +62,14 @@ def limit_point(stepper: Stepper, state: State, factor: float) -> LimitPoint | N
     control: Control = Dissipation(PART * energy) if soft else NextEvent(1.0)
     end = PathEnd(factor, PEAK_PASSED)
     at = replace(OnPath.at_start(state, control.increment), way=_way(stepper, state))
+    trials = Trials(stepper, {})
+
+    def all_soften() -> bool:
+        """Whether bonds soften, and none is left that begins at a limit."""
+        return soft and not trials.may_give_way()
+
+    # Where no load brings a next bond to its limit those that soften already lead the path.
+    at = replace(at, softened=all_soften() and bool(trials.standing(at).losing().any()))
     paths: list[AboutPeak] = []  # the coarse one, and shorter steps about its peak
 
     def follow(
@@ -71,7 +80,7 @@ def limit_point(stepper: Stepper, state: State, factor: float) -> LimitPoint | N
 
         def keep(at: OnPath) -> OnPath:
             about.see(at, stepper.remember(), recorder.totals.ways)
-            return at
+            return about.onward(at) if all_soften() else at
 
         stepper.restore(record)
         return run_path(stepper, recorder, at, control, end, _untold, keep)

@@ -190,3 +190,40 @@ def test_a_spring_that_yields_beside_a_softening_joint_is_led_by_what_the_joint_
     taken = h["loss:springs"] - h["loss:springs"][0]
     np.testing.assert_allclose(taken, 2e3 * (yielded - yielded[0]), atol=2e-3)
     assert abs(run.summary.energy_balance) < 1e-9
+
+
+# A second spring beside the one that yields, below its own limit at the peak: the static theorem
+# shows no failure there, only the path does.
+BESIDE = """
+[[springs]]
+name = "rest"
+points = [[-0.5, 0.05], [0.5, 0.05]]
+stiffness = 1e7
+yield_force = 5e3
+[[supports]]
+"""
+
+
+@pytest.mark.parametrize(
+    ("young", "stiffness", "increment"), [(2.5e9, 1e7, 0.1), (1e11, 1e8, 0.02)]
+)
+def test_a_growing_load_ends_at_the_peak_beside_a_spring_that_yields(young, stiffness, increment):
+    """The whole grows longer by u = w + F / (E A), F = A f_t (1 - w / 0.2 mm) in the joint.
+
+    The soft spring has yielded as the joint begins to open at its limit, w = 0, where the load is
+    largest; the stiff one yields on the way down, at u = 2 kN / k. The second spring adds 1e7 N/m.
+    """
+    head = YIELDING[: YIELDING.index("[loading.control]")].format(young=young, stiffness=stiffness)
+    text = head.replace("[[supports]]\n", BESIDE.lstrip(), 1).replace("[1e5, 0]", "[1e6, 0]")
+    text += f"[formulation.loading]\nincrement = {increment}\n"
+    summary = nmm.run(nmm.parse_scene(text)).summary
+    at_limit = 1e4 / (young * 0.01)
+    longer = max(at_limit, 2e3 / stiffness)
+    opening = (longer - at_limit) / (1 - at_limit / 2e-4)
+    peak = 1e4 * (1 - opening / 2e-4) + 2e3 + 1e7 * longer
+    assert summary.status == "failure_load"
+    assert "a limit point was passed" in summary.sentence
+    reached = 1e4 * summary.failure_factor
+    assert summary.failure_tolerance <= 5e-3  # that of the load
+    assert reached * (1 - 1e-9) <= peak <= reached * (1 + summary.failure_tolerance)
+    assert abs(summary.energy_balance) < 1e-3
