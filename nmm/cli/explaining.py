@@ -93,7 +93,8 @@ def _sizes(scene: "Scene", chosen: "Formulation", blocks: int, elements: int) ->
         if scene.duration is not None:
             yield f"duration: {scene.duration:g} s"
     elif scene.in_time:
-        yield f"duration: {scene.duration:g} s, {_steps(chosen)}, no inertia"
+        span = "" if scene.duration is None else f"duration: {scene.duration:g} s, "
+        yield f"{span}{_steps(chosen)}, no inertia"
     elif scene.loading is not None:
         yield f"loading: until {scene.loading.until}, increment {chosen.loading.increment:g}"
     if scene.strength_reduction is not None:

@@ -21,6 +21,8 @@ COLUMNS = (
     "integration_loss",
     *("kinetic_energy", "strain_energy", "contact_energy", "support_energy"),
 )
+# Steps that a scene must ask for: as many take a quarter of an hour of the smallest one.
+MANY_STEPS = 1e6
 CONTACT_COLUMNS = ("penetration", "friction_loss", "contact_loss", "broken")
 
 
@@ -35,11 +37,25 @@ def check_together(scene: "Scene", formulation: "Formulation") -> None:
     faults = [*_steps(scene, formulation), *_chosen(scene, formulation), *_references(scene)]
     if faults:
         raise SceneError(*faults)
-    step = formulation.integrator.fixed_step
-    if scene.in_time and scene.duration is not None and step is not None:
-        steps = scene.duration / step
-        place = formulation.source.place("integrator", "step")
-        capacity.refuse(place, f"{steps:.3g} steps", steps * capacity.STEP, "take longer steps")
+    _refuse_many_steps(scene, formulation)
+
+
+def _refuse_many_steps(scene: "Scene", formulation: "Formulation") -> None:
+    """Refuse steps whose history no memory holds, and ones past counting that nobody chose."""
+    table = formulation.integrator
+    step, spans = table.fixed_step, [one.duration for one in scene.stages] or [scene.duration]
+    if step is None or not scene.in_time:
+        return
+    chosen = "step" in table.model_fields_set
+    at = formulation.source.place("integrator", "step")
+    place = at if chosen else scene.source.place("stages" if scene.stages else "duration")
+    time = sum(span for span in spans if span is not None)
+    steps, remedy = time / step, "take longer steps"
+    if steps > MANY_STEPS and not chosen:
+        value = f"{steps:.3g} steps of {step:g} s, the default"
+        remedy = f'write [formulation.integrator] step = "{time / 1000:.3g} s", or what resolves it'
+        raise FormulationError(Fault(place, value, "a step that is chosen", remedy))
+    capacity.refuse(place, f"{steps:.3g} steps", steps * capacity.STEP, remedy)
 
 
 def check_kinematics(formulation: "Formulation", kinematics: "Kinematics") -> None:

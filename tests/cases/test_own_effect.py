@@ -319,13 +319,17 @@ def test_the_effect_of_the_example_keeps_what_every_one_promises():
 def test_quantities_of_contacts_are_stored_and_in_paraview(tmp_path):
     from nmm.testing.outputs import TWO_BLOCKS
 
-    text = TWO_BLOCKS + '[output]\nquantities = ["crack_opening", "principal_stress"]\n'
+    bond = "bonded = true\ncohesion = 1e3\ntensile_strength = 1e3\nfriction_angle"
+    text = (
+        TWO_BLOCKS.replace("friction_angle", bond)
+        + '[output]\nquantities = ["crack_opening", "principal_stress"]\n'
+    )
     run = nmm.run(nmm.parse_scene(text), out=tmp_path / "run")
     stored = read_run(run.folder)
     opening = stored.frames[-1].fields["crack_opening"]
     assert (opening.on, opening.unit) == ("contacts", "m")
     assert len(opening.values) == len(stored.frames[-1].contact_gap) > 0
-    assert not opening.values.any()  # nothing was bonded
+    assert not opening.values.any()  # all bonds hold
     write_paraview(stored, tmp_path / "files")
     contacts = sorted((tmp_path / "files").glob("contacts_*.vtu"))[-1].read_text()
     assert 'Name="crack_opening"' in contacts

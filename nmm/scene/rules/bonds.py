@@ -20,7 +20,7 @@ def bonded_crack_contradictions(data: Tables) -> Iterator[Finding]:
         place, value = (*path, "bonded"), "bonded = true"
         if "contact" not in data:
             yield place, f"{value} without [contact]", "a scene with contact", "add [contact]"
-        elif not _has_bond(data):
+        elif not has_bond(data):
             yield place, value, "an interface that is bonded", _ADD_BOND
 
 
@@ -31,7 +31,7 @@ def cohesive_contradictions(data: Tables) -> Iterator[Finding]:
     path = ("cohesive_zones",)
     if "contact" not in data:
         yield path, "no [contact]", "a scene with contact", "add [contact]"
-    elif not _has_bond(data):
+    elif not has_bond(data):
         yield path, "no interface that is bonded", "a strength", _ADD_BOND
     begins = table(data, "cohesive_zones").get("nucleation") is True
     if not data.get("cracks") and not begins:
@@ -42,6 +42,6 @@ def cohesive_contradictions(data: Tables) -> Iterator[Finding]:
             yield path, f"[{key}]", f"a scene without {key}", "remove one of the two"
 
 
-def _has_bond(data: Tables) -> bool:
+def has_bond(data: Tables) -> bool:
     """Whether any interface is bonded."""
     return any(row.get("bonded") is True for _, row in named(data, "interfaces"))

@@ -278,6 +278,15 @@ def test_explain_says_what_is_simulated_and_what_would_call_for_the_rest(scene):
     assert "unknowns: 12" in result.stdout  # two blocks of six
 
 
+def test_explain_says_how_time_passes_in_stages_without_inertia(tmp_path):
+    text = starter().replace("[inertia]", "").replace('duration = "', '# "')
+    (tmp_path / "a.toml").write_text(text + '[[stages]]\nname = "later"\nduration = "2 s"\n')
+    result = call("explain", tmp_path / "a.toml")
+    assert result.exit_code == 0, result.output
+    assert "stages: later (2 s)" in result.stdout
+    assert "no inertia" in result.stdout
+
+
 def test_a_scene_may_name_a_law_of_a_module_beside_it(scene, tmp_path):
     (tmp_path / "my_laws.py").write_text(
         "from nmm.materials.elastic import Elastic\nclass Mine(Elastic):\n    pass\n"

@@ -1,5 +1,6 @@
 """What a scene and a formulation must not be together is told before the run, and by check."""
 
+import re
 from types import SimpleNamespace
 
 import numpy as np
@@ -81,6 +82,11 @@ def test_a_run_has_all_columns_that_references_may_name_and_no_others(projectile
         (STEP.format(2.0), "longer than the duration of 1 s"),
         (STEP.format(1e-15), "allow more: NMM_MEMORY="),
         (
+            '[[stages]]\nname = "s"\nduration = "1000 d"\n' + STEP.format(1e-3),
+            "8.64e+10 steps, about",
+        ),
+        ('[[stages]]\nname = "s"\nduration = "1 h"\n', "3.6e+06 steps of 0.001 s, the default"),
+        (
             '[[reference]]\nquantity = "monitor:tip:uy"\nvalue = 1\ntolerance = 1\nsource = "x"\n',
             "reference.0.quantity",
         ),
@@ -107,14 +113,23 @@ def test_a_run_has_all_columns_that_references_may_name_and_no_others(projectile
     ],
 )
 def test_check_finds_what_a_run_refuses(projectile, more, said, tmp_path):
-    text = projectile + more
-    with pytest.raises(nmm.NmmError, match=said.replace("[", r"\[")):
+    whole = "" if "stages" in more else "duration = 1.0\n"  # or each stage has its own
+    text = projectile.replace("duration = 1.0\n", whole) + more
+    with pytest.raises(nmm.NmmError, match=re.escape(said)):
         nmm.run(parse_scene(text, "a.toml"))
     (tmp_path / "a.toml").write_text(text)
     result = CliRunner().invoke(app, ["check", str(tmp_path / "a.toml")])
     assert result.exit_code == 1
     assert said in result.output
     assert "a.toml:" in result.output  # and in which line
+
+
+def test_a_step_that_is_asked_for_is_taken_a_million_times(projectile):
+    hour = projectile.replace("duration = 1.0", 'duration = "1 h"')
+    with pytest.raises(nmm.NmmError, match=r"3\.6e\+06 steps of 0\.001 s, the default"):
+        prepare(parse_scene(hour), Formulation())
+    asked = parse_scene(hour + STEP.format(1e-3))
+    prepare(asked, asked.formulation)
 
 
 def test_references_take_the_names_that_studies_take(projectile):

@@ -9,6 +9,9 @@ from nmm.outputs.stresses import principal, von_mises
 from nmm.testing import check_output
 from nmm.testing.outputs import TWO_BLOCKS
 
+BOND = "bonded = true\ncohesion = 1e3\ntensile_strength = 1e3\nfriction_angle"
+BONDED = TWO_BLOCKS.replace("friction_angle", BOND)
+
 
 @pytest.mark.parametrize("name", OUTPUTS.names())
 def test_an_output_keeps_what_every_one_promises(name):
@@ -24,8 +27,8 @@ def test_measures_of_simple_states_of_stress():
 
 def test_what_outputs_read_changes_no_digit_of_a_run():
     names = ", ".join(f'"{name}"' for name in OUTPUTS.names())
-    plain = nmm.run(nmm.parse_scene(TWO_BLOCKS))
-    read = nmm.run(nmm.parse_scene(f"{TWO_BLOCKS}[output]\nquantities = [{names}]\n"))
+    plain = nmm.run(nmm.parse_scene(BONDED))
+    read = nmm.run(nmm.parse_scene(f"{BONDED}[output]\nquantities = [{names}]\n"))
     for name, column in plain.history.items():
         assert np.array_equal(read.history[name], column)
     assert set(read.history) - set(plain.history) == {"crack_opening"}

@@ -2,7 +2,7 @@
 
 import pytest
 
-from nmm.scene import Scene
+from nmm.scene import Scene, parse_scene
 from nmm.scene.actions import GravityTable
 from nmm.scene.matter.materials import Material
 from nmm.scene.solids import Block
@@ -37,3 +37,16 @@ def test_an_opening_between_a_point_and_itself_is_refused() -> None:
     control = '[loading.control]\ntype = "opening"\nincrement = "1 um"\n'
     line = fault_of(GOOD + control + 'monitors = ["lip", "lip"]\n' + monitor)
     assert 'loading.control: "lip" twice: expected monitors of two points' in line
+
+
+def test_openings_are_asked_of_cracks_or_bonds() -> None:
+    asked = '[output]\nquantities = ["crack_opening"]\n'
+    plain = (
+        GOOD.replace("bonded = true", "")
+        .replace("tensile_strength", "# ")
+        .replace("cohesion", "# ")
+    )
+    assert '"crack_opening" without cracks or bonds' in "\n".join(faults_of(plain + asked))
+    crack = '[[cracks]]\nname = "c"\npoints = [[0.1, 0.1], [0.2, 0.1]]\n'
+    for opens in (GOOD + asked, plain + asked + crack):
+        assert parse_scene(opens).output is not None
