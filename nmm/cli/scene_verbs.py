@@ -80,7 +80,7 @@ def new(
 def bound(
     scene: SceneFile, formulation: FormulationFile = None, allow_code: AllowCode = None
 ) -> None:
-    """Print the load factor that no run can pass: the static theorem, by linear programming."""
+    """Print the load factor that nothing as drawn can pass: the static theorem."""
     with faults_told(), allowed(scene, allow_code):
         _bound(scene, formulation)
 
@@ -176,7 +176,7 @@ def _bound(place: Path, formulation: Path | None) -> None:
         body, how = largest_mover(made.stepper.model, made.start, found.motion)
         name = block_name(made.stepper.model, body, made.regions.name)
         text = (
-            f"no equilibrium above load factor {found.factor:.6g}{newton}\n"
+            f"no equilibrium above load factor {found.factor:.6g}{newton}, as drawn\n"
             f"mechanism: block {name} moves most: {how} (friction that dilates)"
         )
     out.print(text, highlight=False, markup=False)

@@ -64,8 +64,8 @@ class Summary:
         Largest sum of the scaled loads (N) found in equilibrium, its load factor, and how far
         above it, relative to it, the smallest load was found that is not.
     failure_bound
-        Load factor that admissible forces of contacts, bonds and members cannot pass, by the static
-        theorem.
+        Load factor that admissible forces of contacts, bonds and members cannot pass where the run
+        begins, by the static theorem.
     factor_of_safety, factor_that_fails
         Largest factor over which strengths were in equilibrium, and the smallest over which they
         were not; None where there was none between the bounds, or none was sought.

@@ -29,7 +29,8 @@ def failure_line(summary: Summary) -> str | None:
     if summary.failure_tolerance is not None:
         text += f"; none {100 * summary.failure_tolerance:.2g} % above it is in equilibrium"
     if summary.failure_bound is not None:
-        text += f"; no more than load factor {summary.failure_bound:.5g} by the static theorem"
+        bound = f"{summary.failure_bound:.5g}"
+        text += f"; no more than load factor {bound} by the static theorem, as drawn"
     return text
 
 

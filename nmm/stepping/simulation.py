@@ -26,6 +26,7 @@ from nmm.results.storage.run_folder import RunFolder, checkpoint_header
 from nmm.results.storage.values import Arrays
 from nmm.results.summary import Summary
 from nmm.results.tee import Tee
+from nmm.stepping.bounds.passed import beside_bound
 from nmm.stepping.bounds.static_theorem import load_bound
 from nmm.stepping.checkpoints import Checkpoints
 from nmm.stepping.compiled_scene import CompiledScene
@@ -147,7 +148,7 @@ class Simulation(CompiledScene):
         summary = summed_up(
             self.identity(), recorder, self.start, state, verdict, asked, self.begun
         )
-        sink.finish(self._told(replace(summary, failure_bound=bound)))
+        sink.finish(self._told(beside_bound(summary, bound)))
         return state
 
     def _told(self, summary: Summary) -> Summary:
@@ -207,7 +208,7 @@ class Simulation(CompiledScene):
         return end.state
 
     def _failure_bound(self) -> float | None:
-        """Return the load factor that no run until failure can pass; None where there is none."""
+        """Return the load factor that no forces where the run begins can pass; None without one."""
         loading = self.scene.loading
         if self.scene.inertia is not None or loading is None or loading.until != "failure":
             return None

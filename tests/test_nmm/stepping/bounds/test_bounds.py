@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import nmm
-from nmm.formulation import Formulation
+from nmm.formulation import Formulation, parse_formulation
 from nmm.stepping.bounds.member_forces import TURN
 from nmm.stepping.bounds.static_theorem import carried, load_bound
 from nmm.stepping.prepare import prepare
@@ -217,3 +217,26 @@ def test_two_blocks_that_slide_on_a_cable_have_collapsed(member):
     found = nmm.run(nmm.parse_scene(on_a_slope(40, 30, member))).summary
     assert found.status == "collapsed", found.sentence
     assert "members" in found.sentence
+
+
+# Yielding with T at 40 degrees to a plane of phi = 30, a bolt holds T (cos b + sin b tan phi) as
+# drawn. It turns as its block slides, and at b = phi holds the largest value, T / cos(phi).
+@pytest.mark.parametrize(
+    ("update", "held", "told"),
+    [
+        ("small", np.cos(np.radians(40)) + np.sin(np.radians(40)) / np.sqrt(3), 0),
+        ("exact", 1 / np.cos(np.pi / 6), 1),
+    ],
+)
+def test_a_bolt_that_turns_passes_the_bound_of_its_drawn_place_and_tells_it(update, held, told):
+    anchor = [0.5 - 2 * float(np.cos(np.radians(40))), 0.5 - 2 * float(np.sin(np.radians(40)))]
+    bolt = (
+        f'[[springs]]\nname = "bolt"\npoints = [[0.5, 0.5], {anchor}]\nyield_force = "20 kN"\n'
+        'blocks = ["block", "ground"]\nstiffness = "10 MN/m"\n'
+    )
+    how = f'[rotation]\nupdate = "{update}"\n[loading]\nincrement = 4\ntolerance = 2e-3\n'
+    found = nmm.run(nmm.parse_scene(SLIDING + bolt), parse_formulation(how)).summary
+    # Within the search's tolerance below; the bolt yields fully, no more than rounding above.
+    assert (1 - 2e-3) * (FRICTION / 1e3 + 20 * held) < found.failure_factor
+    assert found.failure_factor < (1 + 1e-3) * (FRICTION / 1e3 + 20 * held)
+    assert sum("bound of the static theorem" in one for one in found.warnings) == told
