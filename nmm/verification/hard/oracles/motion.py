@@ -95,7 +95,7 @@ def turnover(found: Ran) -> float:
 
 def energy_checks(found: Ran) -> Checks:
     """Energy is never made, and where it is the run says so."""
-    energy, size = energies(found), turnover(found)
+    energy, size = energies(found), max(turnover(found), 1e-300)
     lowest = np.minimum.accumulate(energy)
     rise, climb = np.diff(energy).max(initial=0.0), (energy - lowest).max(initial=0.0)
     reason = "energy that nobody brought"
