@@ -150,8 +150,9 @@ def _largest_share(
         return LoadBound(np.inf, still)
     if found.status != SOLVED:
         return None
-    motion = balance.T @ found.eqlin.marginals
-    return LoadBound(float(found.x[-1]), -motion if motion @ whole < 0 else motion)
+    # What is scaled does work in the mechanism; loads that are not, as weight, may resist it.
+    motion = np.copysign(1.0, gain @ found.eqlin.marginals) * (balance.T @ found.eqlin.marginals)
+    return LoadBound(float(found.x[-1]), motion)
 
 
 def _programme(

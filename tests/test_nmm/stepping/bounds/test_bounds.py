@@ -8,6 +8,7 @@ from nmm.formulation import Formulation, parse_formulation
 from nmm.stepping.bounds.member_forces import TURN
 from nmm.stepping.bounds.static_theorem import carried, load_bound
 from nmm.stepping.prepare import prepare
+from nmm.stepping.step.anchors import largest_mover
 
 SLIDING = """
 plane = "stress"
@@ -240,3 +241,16 @@ def test_a_bolt_that_turns_passes_the_bound_of_its_drawn_place_and_tells_it(upda
     assert (1 - 2e-3) * (FRICTION / 1e3 + 20 * held) < found.failure_factor
     assert found.failure_factor < (1 + 1e-3) * (FRICTION / 1e3 + 20 * held)
     assert sum("bound of the static theorem" in one for one in found.warnings) == told
+
+
+@pytest.mark.parametrize(("push", "how"), [("", "clockwise"), ("-", "counter-clockwise")])
+def test_a_tower_falls_the_way_that_it_is_pushed_though_its_weight_resists(push, how):
+    tower = SLIDING.replace("[2, 0], [2, 1], [0, 1]]", "[1, 0], [1, 3], [0, 3]]")
+    pushed = tower.replace("point = [0, 0.5]", "point = [0.5, 2]").replace(
+        '"1 kN"', f'"{push}1 kN"'
+    )
+    made = prepare(nmm.parse_scene(pushed.replace("30 deg", "45 deg")), Formulation())
+    found = load_bound(made.stepper, made.start)
+    assert found.factor == pytest.approx(3 * 9.81 * 0.5 / 2, rel=1e-6)  # W b / 2 h, of 3 tonnes
+    _, said = largest_mover(made.stepper.model, made.start, found.motion)
+    assert said == f"it turns {how}"
