@@ -163,8 +163,8 @@ def _driven(run: EndedRun) -> AuditFinding:
         "energy_made_by_damping",
         share,
         f"{most:.3g} J, {percent(share)} of the turnover, came from {' and '.join(given)}",
-        "take smaller steps, or an integrator that damps waves they do not resolve: what turns with a "
-        "velocity or a stress comes a step late",
+        "take smaller steps, or an integrator that damps waves they do not resolve: what turns "
+        "with a velocity or a stress comes a step late",
     )
 
 
