@@ -12,6 +12,7 @@ import numpy as np
 from integration.arrays import Bools, Floats, Ints
 from integration.ragged import within
 from nmm.assembly.model import Model
+from nmm.effects.acted_ends import member_stretches
 from nmm.effects.acted_parts import Stretches, acted_stretches, acting_tables
 from nmm.effects.base import Setup
 
@@ -53,8 +54,12 @@ class ActedFaces:
 
         What acts at a point on several bodies acts in equal shares, as the mean of their stress is.
         """
-        found = list(acting_tables(setup))
-        pieces = [acted_stretches(setup, table) for table, _ in found]
+        found = [
+            (table.name, acted_stretches(setup, table), holds)
+            for table, holds in acting_tables(setup)
+        ]
+        found += [(name, parts, False) for name, parts in member_stretches(setup)]
+        pieces = [parts for _, parts, _ in found]
         counts = [len(one.edge) for one in pieces]
         none = Stretches(np.zeros(0, dtype=np.int64), np.zeros((0, 2)), np.zeros((0, 2)))
         edge, start, end = (
@@ -63,8 +68,8 @@ class ActedFaces:
         )
         order = np.argsort(edge, kind="stable")
         number = np.repeat(np.arange(len(found)), counts)[order]
-        names = tuple(table.name for table, _ in found)
-        holds = np.array([holding for _, holding in found], dtype=bool)
+        names = tuple(name for name, _, _ in found)
+        holds = np.array([holding for _, _, holding in found], dtype=bool)
         parts = Stretches(edge[order], start[order], end[order])
         return cls(parts, number, names, holds, setup.origin)
 

@@ -21,6 +21,8 @@ from nmm.constraints.ties.followed_ties import followed
 from nmm.constraints.ties.shared_edges import corner_interface, gauss_interface, shared_edges
 from nmm.constraints.ties.tied_interfaces import TiedInterfaces
 from nmm.constraints.turned_axes import turning
+from nmm.contact.detection.joints import Joints
+from nmm.effects.acted_faces import ActedFaces, Sides, shared_stretches
 from nmm.effects.base import Setup
 from nmm.errors import FormulationError
 from nmm.geometry.tessellation.block_cover import PieceGlue
@@ -35,6 +37,8 @@ class ArtificialJoints(TiedInterfaces):
 
     name = "artificial joints"
     external = False
+    loaded_twice = ""
+    """Where loads act on both faces that Nitsche's terms glue, in words."""
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -42,10 +46,26 @@ class ArtificialJoints(TiedInterfaces):
         glue = piece_glue(setup.formulation.cover)
         assert glue is not None
         rule = setup.formulation.contact.joint_points
-        ties = cls.ties_of(setup.model, glue, rule, setup.start)
+        reads_stress = glue.method is not None and IMPOSITIONS.load(glue.method).reads_stress
+        faces = ActedFaces.of(setup) if reads_stress else None
+        ties = cls.ties_of(setup.model, glue, rule, setup.start, faces)
         if setup.scene.initial_stresses:
             ties = laid_under_stress(setup, ties)
-        return cls(ties, setup.model.manifold.n_unknowns, turning(setup))
+        made = cls(ties, setup.model.manifold.n_unknowns, turning(setup))
+        if faces is not None:
+            made.loaded_twice = faces.twice(_sides(setup.model, _within_blocks(setup.model)))
+        return made
+
+    @property
+    def caution(self) -> str:
+        """See `Effect.caution`: loads on both faces."""
+        if not self.loaded_twice:
+            return ""
+        return (
+            f"{self.loaded_twice} of sub-blocks that Nitsche's terms glue, which take the mean "
+            "stress of both sides for the traction: faces part by the loads on them over twice "
+            'the penalty; use glue = "springs" in [cover.options]'
+        )
 
     def follow(self, change: "Change") -> "ArtificialJoints":
         """Return those of the new model; a new block is glued free of stress where it lies.
@@ -58,7 +78,13 @@ class ArtificialJoints(TiedInterfaces):
         return new
 
     @staticmethod
-    def ties_of(model: Model, glue: PieceGlue, joint_rule: str, start: State) -> list[Imposition]:
+    def ties_of(
+        model: Model,
+        glue: PieceGlue,
+        joint_rule: str,
+        start: State,
+        faces: ActedFaces | None = None,
+    ) -> list[Imposition]:
         """Find the joints, and return their ties.
 
         Parameters
@@ -68,18 +94,17 @@ class ArtificialJoints(TiedInterfaces):
         joint_rule
             Where springs between linear fields act: "corners" (also "auto") or "gauss". Between
             fields that bend they act at as many Gauss points as their degree asks for.
+        faces
+            On which something else acts.
         """
-        region, edges = model.manifold.element_region, model.manifold.boundary
-        joints = shared_edges(model)
-        own = region[edges.element[joints.edge_a]] == region[edges.element[joints.edge_b]]
-        joints = joints.take(own)
-        degree = model.manifold.degree
+        joints, degree = _within_blocks(model), model.manifold.degree
         if not len(joints):  # blocks that are not divided
             return []
         if glue.method is not None:
             if IMPOSITIONS.load(glue.method).reads_stress:
                 check_linear(model, "[cover.options] glue", 'glue = "springs"')
-            interface = gauss_interface(model, joints, 2 * degree)
+            acted = None if faces is None else faces.beside(_sides(model, joints))
+            interface = gauss_interface(model, joints, 2 * degree, acted)
             tie = Method(glue.method, None, degree).impose(model, [interface])[0]
             if tie.free.any():
                 raise FormulationError(
@@ -92,6 +117,18 @@ class ArtificialJoints(TiedInterfaces):
         else:
             interface = corner_interface(model, joints, start)
         return [Springs(interface, _spring(model, interface, glue.stiffness))]
+
+
+def _within_blocks(model: Model) -> Joints:
+    """Return the edges that sub-blocks of one block share."""
+    region, edges = model.manifold.element_region, model.manifold.boundary
+    joints = shared_edges(model)
+    own = region[edges.element[joints.edge_a]] == region[edges.element[joints.edge_b]]
+    return joints.take(own)
+
+
+def _sides(model: Model, joints: Joints) -> Sides:
+    return shared_stretches(model, joints.edge_a, joints.edge_b)
 
 
 def _spring(model: Model, interface: Interface, stiffness: float) -> Floats:

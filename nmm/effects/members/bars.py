@@ -26,7 +26,7 @@ FAR = 1e3
 
 
 @dataclass(frozen=True)
-class _BarNodes:
+class BarNodes:
     """A bar as a row of nodes at ``position`` (k, 2) in ``elements`` (k,), -1 for the ground.
 
     Attributes
@@ -57,7 +57,7 @@ class BarMembers(Linked):
     def from_setup(cls, setup: Setup) -> Self:
         """Build from the ``[[bars]]``."""
         bars = setup.scene.bars
-        nodes_of = [_nodes(setup, one) for one in bars]
+        nodes_of = [bar_nodes(setup, one) for one in bars]
         nodes = np.array([len(one.place) for one in nodes_of])
         first = np.delete(np.arange(nodes.sum()), np.cumsum(nodes) - 1)  # of each link
         position, elements, share = (
@@ -96,7 +96,7 @@ class BarMembers(Linked):
         return f"{len(chains.axial)} links, {len(chains.bond)} points of bond"
 
 
-def _nodes(setup: Setup, bar: "BarTable") -> _BarNodes:
+def bar_nodes(setup: Setup, bar: "BarTable") -> BarNodes:
     """Return the nodes of a bar: its anchored ends, and the bonded midpoints of its pieces.
 
     Raises
@@ -125,7 +125,7 @@ def _nodes(setup: Setup, bar: "BarTable") -> _BarNodes:
     place = np.flatnonzero(inside)
     length = float(np.hypot(*(last - first))) / pieces
     bonded = (place > 0) & (place <= pieces)
-    return _BarNodes(elements[place], position[place], place, np.where(bonded, length, 0.0))
+    return BarNodes(elements[place], position[place], place, np.where(bonded, length, 0.0))
 
 
 def _axial(bars: "tuple[BarTable, ...]", owner: Ints, length: Floats) -> Fibres:

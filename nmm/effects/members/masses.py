@@ -29,7 +29,7 @@ class PointMasses(Effect):
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """Build from the ``[[masses]]``."""
-        gravity, ends = setup.scene.gravity, _ends(setup)
+        gravity, ends = setup.scene.gravity, mass_ends(setup)
         down = np.zeros(2) if gravity is None else np.array(gravity.acceleration)
         return cls(ends, _masses(setup)[:, None] * down)
 
@@ -54,7 +54,14 @@ class PointMasses(Effect):
         return float(np.sum(self._weight * (self._ends.way(after) - self._ends.way(before))))
 
 
-def _ends(setup: Setup) -> MemberEnds:
+def mass_ends(setup: Setup) -> MemberEnds:
+    """Return the places of the ``[[masses]]`` of a scene.
+
+    Raises
+    ------
+    SceneError
+        A mass lies on no block.
+    """
     masses = setup.scene.masses
     position = np.array([one.point for one in masses])
     elements = [
@@ -86,7 +93,7 @@ def loaded(setup: Setup) -> "Model":
         The mass is lumped and covers overlap.
     """
     model, manifold = setup.model, setup.model.manifold
-    rows = _ends(setup).points.rows.matrix(manifold.n_unknowns)
+    rows = mass_ends(setup).points.rows.matrix(manifold.n_unknowns)
     found = csc_array(rows.T @ diags_array(np.repeat(_masses(setup), 2)) @ rows)
     cover = manifold.unknown_cover
     row, column = found.nonzero()

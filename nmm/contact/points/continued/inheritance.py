@@ -17,7 +17,7 @@ from covers.change.parentage import Parentage
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.detection.surface import unordered_key
 from nmm.contact.detection.tolerances import SAME_PLACE
-from nmm.contact.points.contact_points import ContactPoints, concatenate
+from nmm.contact.points.contact_points import TIED, ContactPoints, concatenate
 from nmm.contact.points.joint_book import JointBook, given_up
 
 
@@ -140,6 +140,8 @@ def continued_joints(new: JointBook, old: JointBook, line: PointHeirs) -> tuple[
     """
     was, p = known_joints(old), new.points
     history = p.inherited(was, line.parent)
+    if TIED in history:  # how firmly terms hold what turns is of the new model
+        history[TIED] = np.where(history[TIED] > 0, p.history[TIED], 0.0)
     # Bonds that consistent terms held and hold no longer keep the springs that followed.
     released = p.tied & ~replace(p, history=history).tied
     stiff = p.length * line.kept(was.spring_factor / was.length, p.spring_factor / p.length)
