@@ -89,13 +89,18 @@ class ContactLosses:
         That is of softening, and of friction that reaches its limit within the step: nothing slides
         before.
         """
+        means = (self.start.shear_force + self.answer.shear_force) / 2 * self.sliding
+        late = ~self.softening & ~self._limits[1]
+        return self.softened_beyond_means + float(summed((self._rubbed - means)[late]))
+
+    @MadeOnce
+    def softened_beyond_means(self) -> float:
+        """Energy (J) of a step of statics that softening takes beyond what mean forces say."""
         beyond = (
             area @ (dissipated - law.dissipated_by_means(passage))
             for law, passage, area, dissipated in self._softened
         )
-        means = (self.start.shear_force + self.answer.shear_force) / 2 * self.sliding
-        late = ~self.softening & ~self._limits[1]
-        return float(sum(beyond)) + float(summed((self._rubbed - means)[late]))
+        return float(sum(beyond))
 
     @MadeOnce
     def _softened(self) -> list[tuple[InterfaceLaw, Passage, Floats, Floats]]:

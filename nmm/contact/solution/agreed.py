@@ -37,7 +37,9 @@ class Agreed:
         losses = self.iteration.losses(answer, sliding)
         rubbed = losses.energy(static=body is not None) + self.posed.loss(start, answer)
         friction = None if body is None else losses.friction(body)
+        # Loads that grow do more where bonds begin to soften within a step. Less is what a jump
+        # frees, and stays out of balance.
+        between = 0.0 if body is None else max(losses.softened_beyond_means, 0.0)
         missed, loss = self.posed.missed(answer), found.loss + rubbed
-        return with_parts(
-            found, loss=loss, friction=friction, sliding=sliding, rows=rows, missed=missed
-        )
+        told = {"friction": friction, "sliding": sliding, "rows": rows, "missed": missed}
+        return with_parts(found, loss=loss, between=between, **told)

@@ -51,8 +51,9 @@ class ContactSolution:
         Whether ends of joints bear since then, which were no contacts of the step: it is solved
         again with them.
     between
-        Work (J) that loads do within a step of a path beyond that of their mean at both ends: what
-        bonds take that pass their peak between them, and friction that reaches its limit there.
+        Work (J) that loads do within a step of statics beyond that of their mean at both ends: what
+        bonds take that pass their peak between them, and along a path friction that reaches its
+        limit there.
     missed
         (m,) error of linearised spring forces at the gaps that were found (N); None where springs
         are linear.

@@ -227,3 +227,21 @@ def test_a_growing_load_ends_at_the_peak_beside_a_spring_that_yields(young, stif
     assert summary.failure_tolerance <= 5e-3  # that of the load
     assert reached * (1 - 1e-9) <= peak <= reached * (1 + summary.failure_tolerance)
     assert abs(summary.energy_balance) < 1e-3
+
+
+@pytest.mark.parametrize("increment", [1.15, 0.5])
+def test_a_load_that_grows_beyond_the_limit_of_a_joint_does_the_work_along_its_path(increment):
+    """To the limit at u = 10 um it is 11.1 kN, then 11.1 kN + 54.5 N/um w, and u grows by 0.95 w.
+
+    That holds while no spring yields (u = 20 um): at 11.5 kN, the ends of increments, w = 7.3 um.
+    """
+    head = YIELDING[: YIELDING.index("[loading.control]")].format(young=1e11, stiffness=1e8)
+    text = head.replace("[[supports]]\n", BESIDE.lstrip(), 1).replace("[1e5, 0]", "[1e6, 0]")
+    text = text.replace('until = "failure"', "until = 1.15")
+    run = nmm.run(nmm.parse_scene(text + f"[formulation.loading]\nincrement = {increment}\n"))
+    further = 0.95 * 400 / 5.45e7
+    work = 11100 * 1e-5 / 2 + (11100 + 11500) / 2 * further
+    assert run.summary.status == "converged"
+    # The rail's springs take 2.2 uJ, those in place of the joint's terms 3.
+    assert run.history["external_work"][-1] == pytest.approx(work, abs=1e-5)
+    assert abs(run.summary.energy_balance) < 1e-4  # of 0.134 J, for the same springs
