@@ -16,11 +16,9 @@ from nmm.constraints.chosen_method import support_method
 from nmm.constraints.declared_supports import declared, lets_turn, sudden_starts
 from nmm.constraints.driven_bodies import DrivenBodies, driven
 from nmm.constraints.followed_supports import exerted, followed, with_those_gone
-from nmm.constraints.imposition import Imposition, Method
-from nmm.constraints.interface import Interface
-from nmm.constraints.laid_springs import facing_joints, laid_under_stress, on_joints
+from nmm.constraints.imposed_supports import imposed
+from nmm.constraints.imposition import Imposition
 from nmm.constraints.nitsche.volume_lift import sharing
-from nmm.constraints.points_under_stress import laid_at_points
 from nmm.constraints.ties.tied_interfaces import TiedInterfaces
 from nmm.constraints.turned_axes import turning
 from nmm.effects.base import Instant, Setup
@@ -65,23 +63,11 @@ class Supports(TiedInterfaces):
         part = setup.formulation.supports
         method = support_method(setup.model, part, size, highest_degree(cover), setup.only_strained)
         interfaces = [declared(setup, support, method) for support in scene.supports]
-        edges = [i for i, one in enumerate(interfaces) if one.first.normal is not None]
-        shared = _on_joints(setup, method, [interfaces[i] for i in edges])
-        if part.method == "auto":
-            edges = [i for i in edges if interfaces[i].name not in shared]
-        # Springs need no traction: at points that are no edge, and on faces of joints, where the
-        # support and the neighbour share it.
-        found = replace(method, kind="penalty").impose(setup.model, interfaces)
-        along = method.impose(setup.model, [interfaces[i] for i in edges])
-        for i, support in zip(edges, along, strict=True):
-            found[i] = support
-        if scene.initial_stresses:
-            found = laid_at_points(setup, laid_under_stress(setup, found))
+        found, shared = imposed(setup, interfaces, method)
         n_unknowns, in_time = setup.model.manifold.n_unknowns, scene.inertia is not None
         turns = turning(setup) if lets_turn(setup.model, interfaces) else None
-        shares = bool(shared) and part.method != "auto"
-        told = sudden_starts(setup, interfaces), _shared_tractions(shared) if shares else ""
-        caution = "; ".join(filter(None, (*told, still_ground(scene))))
+        told = sudden_starts(setup, interfaces), shared, still_ground(scene)
+        caution = "; ".join(filter(None, told))
         return cls(found, n_unknowns, setup.start, in_time, turns, setup.model, caution)
 
     @property
@@ -233,21 +219,3 @@ def _sharing(supports: Sequence[Imposition]) -> list[Imposition]:
     """Return supports whose pressures know of one another."""
     pairs = zip(supports, sharing([s.lift for s in supports]), strict=True)
     return [s if one is None else s.with_lift(one) for s, one in pairs]
-
-
-def _on_joints(setup: Setup, method: Method, edges: Sequence[Interface]) -> list[str]:
-    """Return the names of those supports by Nitsche's method that hold faces of joints."""
-    if method.kind != "nitsche" or setup.model.manifold.n_bodies == 1:
-        return []
-    joints = facing_joints(setup)
-    return [one.name for one in edges if on_joints(joints, one.first).any()]
-
-
-def _shared_tractions(names: Sequence[str]) -> str:
-    """Tell that Nitsche's method holds faces of joints, in words."""
-    named = ", ".join(f'"{name}"' for name in names)
-    return (
-        f"{named} on faces of joints by Nitsche's method, which takes the traction of the body for "
-        "the support's: the neighbour has a part of it, and held faces move by that over the "
-        'penalty; leave out [supports] method, or use "lagrange"'
-    )
