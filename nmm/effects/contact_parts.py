@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from covers.approximation.manifold import Manifold
-from integration.arrays import Bools, Ints
+from integration.arrays import Bools, Floats, Ints
 from nmm.contact.bonds.consistent_bonds import consistent
 from nmm.contact.candidates.pairs import MISSING, Pairs
 from nmm.contact.candidates.partners import Partners
@@ -53,6 +53,7 @@ def contact_parts(setup: Setup) -> ContactParts:
         origin=setup.origin,
         whole_faces=means,
         together=_together(setup),
+        weight=_weight(setup),
     )
     edges, modulus = setup.model.cut.boundary, setup.model.modulus
     nodes = TraceSpace.of(partners.sides, edges, modulus, partners.welded) if means else None
@@ -171,6 +172,14 @@ def _together(setup: Setup) -> Ints:
                 ways.append(way)
             number[bodies] = -1 - ways.index(way)
     return number
+
+
+def _weight(setup: Setup) -> Floats | None:
+    """Return the acceleration (B, 2) that weight gives bodies which no support holds (m/s2)."""
+    gravity = setup.scene.gravity
+    if gravity is None:
+        return None
+    return np.where(_held(setup)[:, None], 0.0, np.array(gravity.acceleration))
 
 
 def _holding(setup: Setup) -> Iterator[tuple["SupportTable", Ints]]:

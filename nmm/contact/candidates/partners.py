@@ -48,6 +48,8 @@ class Partners:
         (`nmm.contact.mortar.segments.faced`).
     together
         (B,) a number that bodies share which cannot move apart; None where each goes alone.
+    weight
+        (B, 2) the acceleration that weight gives each body, 0 where supports hold it (m/s2).
     origin
         (2,) where the axes lie in those of the scene (m), for messages.
     """
@@ -61,8 +63,9 @@ class Partners:
         origin: Floats,
         whole_faces: bool = False,
         together: Ints | None = None,
+        weight: Floats | None = None,
     ) -> None:
-        self.sides = sides(model.manifold, together)
+        self.sides = sides(model.manifold, together, weight)
         self.welded = WeldedVertices.of(model.cut.boundary, self.sides) if within_bodies else None
         self._pairs = pairs
         self._within_bodies, self._face_points = within_bodies, face_points

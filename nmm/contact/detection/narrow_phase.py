@@ -22,6 +22,8 @@ Flush neighbours
 Kinks of two bodies
     Slope and flat that are flush side by side bound what stands in their kink as one body does: it
     is merged with neither, meets both, and slides over their corners, which are reentrant together.
+    Wedge and slope make one with the flat, too. The body passes the other that weight drives faster
+    along the slope's sides, or its motion where weight drives neither; else the deeper kink stands.
 
 What these rules overlook is found afterwards: a step that lets a vertex through an edge is solved
 again with that pair (`with_pairs`), and what still overlaps as it appears stores no energy

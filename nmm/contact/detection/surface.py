@@ -27,6 +27,9 @@ class Surface:
         (n,) the edges that follow and precede it in its ring.
     together
         (n,) a number that bodies share which cannot move apart; None where each goes alone.
+    weight
+        (n, 2) the acceleration that weight gives each edge's body, 0 for bodies that supports hold
+        (m/s2); None without any.
     """
 
     start: Floats
@@ -35,11 +38,17 @@ class Surface:
     next: Ints
     previous: Ints
     together: Ints | None = None
+    weight: Floats | None = None
 
     @property
     def moves(self) -> Ints:
         """(n,) numbers of what moves as one: ``together``, or the bodies."""
         return self.body if self.together is None else self.together
+
+    @property
+    def falls(self) -> Floats:
+        """(n, 2) the ``weight``, or zeros (m/s2)."""
+        return np.zeros_like(self.start) if self.weight is None else self.weight
 
     def __len__(self) -> int:
         return len(self.body)

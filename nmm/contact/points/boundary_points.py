@@ -25,13 +25,14 @@ _UPRIGHT = np.zeros(0)
 class Sides:
     """Both ends of all boundary edges as material points.
 
-    ``together`` (n,) is that of `Surface`.
+    ``together`` (n,) and ``weight`` (n, 2) are those of `Surface`.
     """
 
     manifold: Manifold
     start: MaterialPoints
     end: MaterialPoints
     together: Ints | None = None
+    weight: Floats | None = None
 
     def surface(self, frames: Frames, deformation: Floats) -> Surface:
         """Return the edges where they are now."""
@@ -55,6 +56,7 @@ class Sides:
             next=edges.next,
             previous=edges.previous,
             together=self.together,
+            weight=self.weight,
         )
 
     @cached_property
@@ -107,12 +109,13 @@ class Sides:
         )
 
 
-def sides(manifold: Manifold, together: Ints | None = None) -> Sides:
-    """Return the sides of a manifold's boundary edges; ``together`` (B,) is of bodies."""
+def sides(manifold: Manifold, together: Ints | None = None, weight: Floats | None = None) -> Sides:
+    """Return the sides of a manifold's boundary edges; ``together``, ``weight`` are of bodies."""
     edges = manifold.boundary
     return Sides(
         manifold,
         material_points(manifold, edges.element, edges.start),
         material_points(manifold, edges.element, edges.end),
         None if together is None else together[edges.body],
+        None if weight is None else weight[edges.body],
     )

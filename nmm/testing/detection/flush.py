@@ -15,7 +15,7 @@ from integration.arrays import Bools, Floats, Ints
 from integration.plane_vectors import cross, dot
 from nmm.contact.detection.measures import flush_distance, thinner
 from nmm.contact.detection.surface import Surface
-from nmm.contact.detection.tolerances import MERGED_BODIES, Rules
+from nmm.contact.detection.tolerances import MERGED_BODIES, RANKED, Rules
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,10 +115,10 @@ def _meet(surface: Surface, at: Ints, edge: Ints, corner: Ints, rules: Rules) ->
     return np.asarray(np.hypot(*offset.T) <= 2.0 * flush_distance(surface, at, edge, rules))
 
 
-def beside_kinks(
+def _beyond(
     surface: Surface, covers: Covers, moves: Ints, e: Ints, end: Bools, rules: Rules
 ) -> Ints:
-    """Edges (m,) that make a kink with an ``end`` of edges, of what moves not as ``moves``; or -1.
+    """Edges (m,) that go on beyond an ``end`` of edges, of what moves not as ``moves``; or -1.
 
     Pieces of one body may lie between.
     """
@@ -134,18 +134,66 @@ def beside_kinks(
         broken |= going & ~_meet(surface, at, x, corner, rules)
         at, last = np.where(going, corner, at), np.where(going, x, last)
         other = np.where(going, np.where(end, corner, surface.previous[corner]), other)
+    return np.where(broken, -1, other)
+
+
+def _turned(surface: Surface, e: Ints, end: Bools, other: Ints, rules: Rules) -> Bools:
+    """Whether edges (m,) and the ``other`` ones beyond their ``end`` turn towards each other."""
     turn = cross(surface.direction[other], surface.direction[e])
-    turned = np.where(end, -turn, turn) < -rules.sine
-    return np.where((other >= 0) & ~broken & turned, other, -1)
+    return np.asarray((other >= 0) & (np.where(end, -turn, turn) < -rules.sine))
 
 
-def _depth(
+def beside_kinks(
     surface: Surface, covers: Covers, moves: Ints, e: Ints, end: Bools, rules: Rules
-) -> Floats:
-    """Angles (m,) of the kinks that `beside_kinks` finds (rad), or 0."""
-    other = beside_kinks(surface, covers, moves, e, end, rules)
+) -> Ints:
+    """Edges (m,) beyond an ``end`` of edges that make a kink with them; or -1. See `_beyond`."""
+    other = _beyond(surface, covers, moves, e, end, rules)
+    return np.where(_turned(surface, e, end, other, rules), other, -1)
+
+
+def _depth(surface: Surface, e: Ints, other: Ints) -> Floats:
+    """Angles (m,) of the kinks of edges with the ``other`` ones (rad), or 0 where there is none."""
     ways = surface.direction[other], surface.direction[e]
     return np.where(other >= 0, np.arctan2(np.abs(cross(*ways)), dot(*ways)), 0.0)
+
+
+def _along(surface: Surface, vectors: Floats, other: Ints, end: Bools) -> Floats:
+    """What of vectors (m, 2) goes along edges beyond an ``end`` to the corner there, from 0 on."""
+    rate = dot(vectors, surface.direction[other])
+    return np.asarray(np.maximum(np.where(end, -rate, rate), 0.0))
+
+
+def _reentrant(
+    surface: Surface,
+    covers: Covers,
+    v: Ints,
+    e: Ints,
+    further: Bools,
+    motion: Floats,
+    rules: Rules,
+) -> Bools:
+    """Whether vertices (m,) lie in kinks of their body and a flush one that bound no way of edges.
+
+    Of two kinks that is the deeper one, unless weight or motion drives one body past the other.
+    """
+    ends, deep = [np.full(len(v), end) for end in (False, True)], np.zeros(len(v))
+    sides, mates = (v, surface.previous[v]), []
+    for side, end in zip(sides, ends, strict=True):
+        mate = _beyond(surface, covers, surface.moves[e], side, end, rules)
+        turned = _turned(surface, side, end, mate, rules)
+        deep = np.where(turned, np.maximum(deep, _depth(surface, side, mate)), deep)
+        mates.append(mate)
+    other = beside_kinks(surface, covers, surface.moves[v], e, further, rules)
+    mate, at = np.where(further, *mates), np.where(further, surface.next[e], e)
+    ahead = np.zeros(len(v))
+    for drive in (surface.falls, motion):
+        rate = _along(surface, drive[v], other, further)
+        rate -= _along(surface, drive[at], mate, ~further)
+        size = np.hypot(*drive.T)
+        clear = (mate >= 0) & (np.abs(rate) > RANKED * (size[v] + size[at]))
+        ahead = np.where((ahead == 0.0) & clear, rate, ahead)
+    passed = np.where(ahead == 0.0, deep > _depth(surface, e, other), ahead < 0.0)
+    return np.where(other < 0, deep > 0.0, passed & (np.maximum(*mates) >= 0))
 
 
 def within_kinks(
@@ -161,21 +209,23 @@ def within_kinks(
 
 
 def leaves(
-    surface: Surface, covers: Covers, v: Ints, e: Ints, along: Floats, rules: Rules
+    surface: Surface,
+    covers: Covers,
+    v: Ints,
+    e: Ints,
+    along: Floats,
+    motion: Floats,
+    rules: Rules,
 ) -> Bools:
     """First-order entrance condition, for the vertex alone and with its flush neighbours.
 
     In a kink of its body and a flush one a vertex meets only edges along its sides, and those that
-    end in a deeper one.
+    end in another past which its body goes, or in a deeper one.
     """
     own, before = surface.direction[v], -surface.direction[surface.previous[v]]
     alone = _outward(surface, e, own, before, rules)
-    deep = [
-        _depth(surface, covers, surface.moves[e], side, np.full(len(v), end), rules)
-        for side, end in ((v, False), (surface.previous[v], True))
-    ]
     further = along > 0.5 * surface.length[e]
-    reentrant = np.maximum(*deep) > _depth(surface, covers, surface.moves[v], e, further, rules)
+    reentrant = _reentrant(surface, covers, v, e, further, motion, rules)
     reentrant &= (covers.own[v] != e) & (covers.before[v] != e)
     other = beside_kinks(surface, covers, surface.moves[v], e, further, rules)
     mate = np.where(other >= 0, surface.body[other], -1)

@@ -82,7 +82,7 @@ def select(
     depth = np.where(trusted, rules.depth, rules.flush) * thinner(surface, v, e)
     usable = (length > 0.0) & convex[v]
     usable &= (gap >= -depth) & (gap <= rules.reach)
-    usable &= leaves(surface, covers, v, e, along, rules)
+    usable &= leaves(surface, covers, v, e, along, motion, rules)
     usable &= ~shielded(surface, covers, v, e, along, gap, rules)
     rank = _rank(surface, v, e, along, gap, last, motion, rules)
     kept = np.where(interior & usable, 1, 0)

@@ -78,6 +78,7 @@ def _contacts(
     end: Floats,
     body: Ints,
     moves: Ints,
+    weight: Floats,
     following: Ints,
     previous: Ints,
     vertex: Ints,
@@ -93,7 +94,7 @@ def _contacts(
     if not rising:
         vertex, edge = vertex[:0], edge[:0]
         offset[:] = 0
-    shape = shape_of(start, end, body, moves, following, previous, rules.sine)
+    shape = shape_of(start, end, body, moves, (weight, motion), following, previous, rules.sine)
     rows, final, s, gap = select(shape, vertex, edge, offset, last, motion, rules)
     return rising, describe(shape, vertex, edge, rows, final, s, gap, rules)
 
@@ -103,7 +104,8 @@ def find(
 ) -> Columns:
     """Columns of `contacts.Contacts`; candidates in any order, ``last`` keys in any order."""
     start, end = np.ascontiguousarray(surface.start), np.ascontiguousarray(surface.end)
-    rings = start, end, surface.body, surface.moves, surface.next, surface.previous
+    weight = np.ascontiguousarray(surface.falls)
+    rings = start, end, surface.body, surface.moves, weight, surface.next, surface.previous
     rising, columns = _contacts(*rings, vertex, edge, last, motion, rules)
     if not rising:
         key = np.unique(vertex * len(start) + edge)

@@ -29,10 +29,12 @@ class EdgesOfVertex(NamedTuple):
     gap: Floats
 
 
-# Of an edge start, end and unit direction, its length and the thickness of its body; that body and
-# what moves as one with it, neighbours in the ring, whether its first vertex is convex, and the
-# flush covers of the two edges there (`edges.cover`).
-REAL, LINK = "sx sy ex ey tx ty length thick", "body moves next previous convex own before"
+# Of an edge start, end and unit direction, its length, the thickness of its body, the acceleration
+# of its weight and what its first vertex is expected to move; that body and what moves as one with
+# it, neighbours in the ring, whether its first vertex is convex, and the flush covers of the two
+# edges there (`edges.cover`).
+REAL = "sx sy ex ey tx ty length thick wx wy mx my"
+LINK = "body moves next previous convex own before"
 EDGE = np.dtype([(name, float) for name in REAL.split()] + [(name, int) for name in LINK.split()])
 Shape = npt.NDArray[Any]
 """All that is known of edges (n,) and their first vertices, a record `EDGE` each."""
@@ -65,11 +67,16 @@ def shape_of(
     end: Floats,
     body: Ints,
     moves: Ints,
+    drives: tuple[Floats, Floats],
     following: Ints,
     previous: Ints,
     sine: float,
 ) -> Shape:
-    """Directions, lengths, convexity of vertices and thickness of bodies."""
+    """Directions, lengths, convexity of vertices and thickness of bodies.
+
+    ``drives`` are the weight (n, 2) and the motion (n, 2), which may be without rows.
+    """
+    weight, motion = drives
     shape, thickness = np.zeros(len(start), EDGE), thickness_of(start, end, body)
     for e in range(len(start)):
         edge = shape[e]
@@ -78,6 +85,9 @@ def shape_of(
         dx, dy = end[e, 0] - start[e, 0], end[e, 1] - start[e, 1]
         size = math.sqrt(dx * dx + dy * dy)
         edge.length, edge.thick = size, thickness[body[e]]
+        edge.wx, edge.wy = weight[e, 0], weight[e, 1]
+        if len(motion) > 0:
+            edge.mx, edge.my = motion[e, 0], motion[e, 1]
         if size > 0.0:
             edge.tx, edge.ty = dx / size, dy / size
         edge.body, edge.next, edge.previous = body[e], following[e], previous[e]

@@ -101,27 +101,46 @@ def acceleration(friction, slope, outline):
     return np.linalg.solve(np.transpose(columns), weight)[2]
 
 
+BED = [[0, -3], [6, -3], [6, -2], [0, -2]]
+
+
+def foundation(flat, mirror):
+    """Return the outlines of what bears the flat, and what holds the ground."""
+    if flat == "held at its base":
+        base = f"segment = [[0, -2], [{6 * mirror}, -2]]"
+        return [], [text.fixed_block("slope"), text.fixed_block("flat") + base]
+    bed = [("bed", BED)] if flat == "on a bed" else []
+    return bed, [text.fixed_block(name) for name in ("slope", bed[0][0] if bed else "flat")]
+
+
 @pytest.mark.parametrize("points", ["vertices", "faces"])
 @pytest.mark.parametrize(
-    ("mirror", "wedge_first", "slope", "lean"),
+    ("mirror", "wedge_first", "slope", "lean", "flat"),
     [
-        (1, False, 45, 0),
-        (-1, True, 45, 0),
-        (1, False, 20, 20),
-        (-1, True, 20, 40),
-        (1, True, 20, 30),
+        (1, False, 45, 0, "held"),
+        (-1, True, 45, 0, "held"),
+        (1, False, 20, 20, "held"),
+        (-1, True, 20, 40, "held"),
+        (1, True, 20, 30, "held"),
+        (-1, False, 20, 20, "held at its base"),
+        (1, True, 20, 40, "held at its base"),
+        (1, False, 20, 30, "on a bed"),
+        (-1, True, 20, 40, "on a bed"),
     ],
 )
 def test_a_wedge_in_the_kink_of_two_bodies_slides_as_two_forces_say(
-    mirror, wedge_first, slope, lean, points
+    mirror, wedge_first, slope, lean, flat, points
 ):
-    """Its side may lean over the flat as the slope is inclined, and further."""
+    """Its side may lean over the flat as the slope is inclined, and further.
+
+    On its bed the flat, which is heavier, stays where it is.
+    """
     outline, ground = shapes(np.radians(slope), np.radians(lean))
-    outlines = [("wedge", outline), *ground.items()][:: 1 if wedge_first else -1]
+    bed, held = foundation(flat, mirror)
+    outlines = [("wedge", outline), *ground.items(), *bed][:: 1 if wedge_first else -1]
     parts = [text.block(name, "rock", np.multiply(at, [mirror, 1])) for name, at in outlines]
     stiff = text.material("rock", modulus=1e12, density=2500.0)
     monitor = text.monitor("toe", np.zeros(2), "wedge")
-    held = [text.fixed_block(name) for name in TWO]
     general = text.weighty(2e-3, duration=0.05)
     general = general.replace("normal_penalty = 100.0", f'points = "{points}"')
     scene = text.scene(general, [stiff, text.interface("any", 2.0), *parts, *held, monitor])
@@ -131,3 +150,30 @@ def test_a_wedge_in_the_kink_of_two_bodies_slides_as_two_forces_say(
     # 1 % for what the springs give as weight comes on at once.
     assert way[0] * mirror == pytest.approx(way_of_toe, rel=0.01)
     assert found.summary.audits["energy_made_in_run"] < 1e-6
+
+
+@pytest.mark.parametrize("joint", [-2.0, -1.0])
+@pytest.mark.parametrize(("floor", "speed"), [(False, 0.0), (True, 1.0)])
+def test_a_block_passes_an_inclined_joint_of_a_wall_that_it_falls_along_or_a_floor(
+    floor, speed, joint
+):
+    """Wall or floor are two bodies, which supports hold at parts: no corner there catches it."""
+    axes = np.array([[0.0, 1.0], [-1.0, 0.0]]) if floor else np.eye(2)
+    ends = np.array([[-2.0, 3.0], [-2.0, joint], [-2.0, -4.0]]) @ axes
+    outlines = {
+        "first": [[0, 0], [0, 3], [-2, 3], [-2, joint]],
+        "second": [[0, 0], [-2, joint], [-2, -4], [0, -4]],
+        "block": [[0, 0.02], [1, 0.02], [1, 1.02], [0, 1.02]],
+    }
+    parts = [text.block(name, "rock", np.array(at) @ axes) for name, at in outlines.items()]
+    at = zip(("first", "second"), ends, ends[1:], strict=False)
+    held = [f"{text.fixed_block(name)}segment = {[a.tolist(), b.tolist()]}\n" for name, a, b in at]
+    stiff = text.material("rock", modulus=1e12, density=2500.0)
+    start = f'[[initial_velocities]]\nblock = "block"\nvelocity = [{speed}, 0.0]\n'
+    monitor = text.monitor("block", np.array([0.5, 0.52]) @ axes, "block")
+    parts = [stiff, text.interface("any", 0.0), *parts, *held, monitor, start if speed else ""]
+    found = nmm.run(nmm.parse_scene(text.scene(text.weighty(2e-3, duration=0.1), parts)))
+    way = last_way(found, "block") @ axes.T
+    # 1e-6 m is what the springs of walls give.
+    expected = -speed * 0.1 if floor else -text.G * 0.1**2 / 2
+    np.testing.assert_allclose(way, [0.0, expected], rtol=0.0, atol=1e-6)

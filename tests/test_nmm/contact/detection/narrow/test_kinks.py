@@ -99,6 +99,31 @@ def test_of_bodies_that_move_as_one_the_kink_bounds_a_wedge_that_leans_however_f
     assert (np.abs(on_wedge.normal @ axes.T + 0.5**0.5) < 1e-9).all()
 
 
+@pytest.mark.parametrize("find", [find_contacts, find_by_arrays])
+@pytest.mark.parametrize("order", [[0, 1, 2], [2, 1, 0], [1, 2, 0]])
+@pytest.mark.parametrize("turn", [0.0, 3.0])
+@pytest.mark.parametrize(("lean", "rise"), [(-1, 2), (0, 2), (2, 2), (5, 2), (0, 6), (2, 6)])
+@pytest.mark.parametrize("down", [True, False])
+@pytest.mark.parametrize("drive", ["weight", "motion"])
+def test_weight_or_motion_says_whether_a_wedge_goes_over_a_loose_flat_or_the_flat_under_it(
+    drive, down, lean, rise, turn, order, find
+):
+    """Down it drives the wedge into the kink, up the flat, which passes a side that leans away."""
+    slope, flat = [[-4, 2 * rise], *SLOPE[1:]], FLAT
+    rings = [slope, flat, [[0, 0], [lean, rise], [-2, rise]]]
+    surface, axes = placed([rings[body] for body in order], turn)
+    way = np.tile([0.0, -1e-6 if down else 1e-6] @ axes, (len(surface), 1))
+    goes = way * (surface.body == order.index(2 if down else 1))[:, None]
+    surface = replace(surface, weight=way if drive == "weight" else None)
+    pairs = NeighbourList(4e-3).update(surface)
+    contacts = find(surface, *pairs, 2e-3, motion=None if drive == "weight" else goes)
+    of_wedge = contacts.take(surface.body[contacts.vertex] == order.index(2))
+    on_wedge = contacts.take(contacts.body == order.index(2))
+    on_flat = (of_wedge.body == order.index(1)).sum()
+    below = (surface.body[on_wedge.vertex] == order.index(1)).sum()
+    assert (on_flat, below) == ((1, 0) if down else (0, int(lean > 0)))
+
+
 @pytest.mark.parametrize("turn", np.linspace(0.0, 3.0, 7))
 @pytest.mark.parametrize(("rings", "sides"), [(SQUARES, 4), (SECTORS, 3)])
 def test_cells_that_fit_meet_along_their_sides_alone(rings, sides, turn):
