@@ -203,7 +203,7 @@ def test_bonds_that_break_in_time_make_no_energy(integrator):
         "name": "push",
         "kind": "edge",
         "segment": [[0.1, 0.8], [0.1, 1.5]],
-        "traction": [6e4, 0],
+        "traction": [8e4, 0],
         "history": [[0, 0], [0.1, 1], [0.12, 0]],
     }
     blocks = [block("a", 0, 0, 1.2, 0.8), block("b", 0.1, 0.8, 0.9, 0.7)]

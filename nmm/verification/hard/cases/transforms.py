@@ -121,7 +121,7 @@ def _mapped(key: str, value: Any, place: Map, vector: Map, turn: float) -> Any:
         return place(np.asarray([value], dtype=float))[0].tolist()
     if key in VECTORS and isinstance(value, list):
         return vector(np.asarray([value], dtype=float))[0].tolist()
-    if key == "stress" and turn:
+    if key == "stress" and turn and isinstance(value, list):
         return _turned_stress(value, turn)
     if key in ("dip", "angle", "axis_angle"):
         return value + turn
