@@ -11,7 +11,7 @@ from nmm.assembly.state import State
 from nmm.assembly.stress_points import StressAt
 from nmm.assembly.tractions.held_edges import HeldEdge
 from nmm.contact.model_contact import ModelContact
-from nmm.effects.acted_bonds import loaded_twice
+from nmm.effects.acted.acted_bonds import loaded_twice
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.contact_parts import contact_parts, stress_of_ground
 

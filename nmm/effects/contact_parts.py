@@ -17,7 +17,7 @@ from nmm.contact.mortar.segments import face_points
 from nmm.contact.mortar.trace_space import TraceSpace
 from nmm.contact.parts import ContactParts
 from nmm.contact.points.cracks.bonded_cracks import BondedCracks
-from nmm.effects.acted_bonds import acted_on
+from nmm.effects.acted.acted_bonds import acted_on
 from nmm.effects.base import Setup
 from nmm.errors import Fault, FormulationError, SceneError
 from nmm.formulation import ContactMethod

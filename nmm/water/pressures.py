@@ -16,7 +16,7 @@ from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
 from nmm.assembly.places import Place, along_segment, on_parts
 from nmm.assembly.state import State
-from nmm.effects.acted_parts import crack_faces
+from nmm.effects.acted.acted_parts import crack_faces
 from nmm.effects.acting_place import traction_order
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 from nmm.effects.loading.load_factor import load_factor

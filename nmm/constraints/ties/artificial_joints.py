@@ -22,7 +22,7 @@ from nmm.constraints.ties.shared_edges import corner_interface, gauss_interface,
 from nmm.constraints.ties.tied_interfaces import TiedInterfaces
 from nmm.constraints.turned_axes import turning
 from nmm.contact.detection.joints import Joints
-from nmm.effects.acted_faces import ActedFaces, Sides, shared_stretches
+from nmm.effects.acted.acted_faces import ActedFaces, Sides, shared_edge_parts
 from nmm.effects.base import Setup
 from nmm.errors import FormulationError
 from nmm.geometry.tessellation.block_cover import PieceGlue
@@ -128,7 +128,7 @@ def _within_blocks(model: Model) -> Joints:
 
 
 def _sides(model: Model, joints: Joints) -> Sides:
-    return shared_stretches(model, joints.edge_a, joints.edge_b)
+    return shared_edge_parts(model, joints.edge_a, joints.edge_b)
 
 
 def _spring(model: Model, interface: Interface, stiffness: float) -> Floats:

@@ -27,7 +27,7 @@ from nmm.constraints.ties.shared_edges import (
 from nmm.constraints.ties.tied_interfaces import TiedInterfaces
 from nmm.constraints.turned_axes import turning
 from nmm.contact.detection.joints import Joints
-from nmm.effects.acted_faces import ActedFaces, shared_stretches, wet_faces
+from nmm.effects.acted.acted_faces import ActedFaces, shared_edge_parts, wet_faces
 from nmm.effects.base import Setup
 from nmm.errors import FormulationError
 
@@ -67,7 +67,7 @@ class BondedInterfaces(TiedInterfaces):
         if glued.any():
             size = cover.finest if model.manifold.shared_covers else None
             glue, faces = joints.take(glued), ActedFaces.of(setup)
-            sides = shared_stretches(model, glue.edge_a, glue.edge_b)
+            sides = shared_edge_parts(model, glue.edge_a, glue.edge_b)
             ties += glue_edges(model, glue, part, size, faces.beside(sides))
             if any(tie.reads_stress for tie in ties):
                 twice = faces.twice(sides) or wet_faces(setup)

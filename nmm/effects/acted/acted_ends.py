@@ -10,8 +10,8 @@ from covers.approximation.manifold import Manifold
 from integration.arrays import Floats, Ints
 from integration.plane_vectors import clockwise
 from nmm.assembly.places import NEAR
-from nmm.effects.acted_parts import Stretches
 from nmm.effects.base import Setup
+from nmm.geometry.places import EdgeParts
 
 if TYPE_CHECKING:
     from nmm.effects.members.ends import MemberEnds
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     Place = tuple[str, Floats, Ints]
 
 
-def member_stretches(setup: Setup) -> Iterator[tuple[str, Stretches]]:
+def member_edge_parts(setup: Setup) -> Iterator[tuple[str, EdgeParts]]:
     """Yield the name of each member or mass with ends on faces, and these as parts of edges."""
     for name, position, element in _places(setup):
         parts = ends_on_faces(setup.model.manifold, position, element)
@@ -27,7 +27,7 @@ def member_stretches(setup: Setup) -> Iterator[tuple[str, Stretches]]:
             yield name, parts
 
 
-def ends_on_faces(manifold: Manifold, position: Floats, element: Ints) -> Stretches:
+def ends_on_faces(manifold: Manifold, position: Floats, element: Ints) -> EdgeParts:
     """Return points (m, 2) of elements (m,) as parts without length of the edges that pass them.
 
     Edges are those of the body of the element, which lies behind them: beside a crack those of one
@@ -44,7 +44,7 @@ def ends_on_faces(manifold: Manifold, position: Floats, element: Ints) -> Stretc
     behind = np.sum((there[end] - manifold.elements.centroids[own]) * out, axis=1) > 0
     same = manifold.element_body[own] == manifold.element_body[edges.element[edge]]
     kept = same & (behind | (edges.element[edge] == own))
-    return Stretches(edge[kept], there[end[kept]], there[end[kept]])
+    return EdgeParts(edge[kept], there[end[kept]], there[end[kept]])
 
 
 def _places(setup: Setup) -> "Iterator[Place]":

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nmm.effects.acted_ends import ends_on_faces
+from nmm.effects.acted.acted_ends import ends_on_faces
 from nmm.formulation import parse_formulation
 from nmm.scene import parse_scene
 from nmm.stepping.run import Run, run

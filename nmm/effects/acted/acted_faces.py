@@ -12,15 +12,16 @@ import numpy as np
 from integration.arrays import Bools, Floats, Ints
 from integration.ragged import within
 from nmm.assembly.model import Model
-from nmm.effects.acted_ends import member_stretches
-from nmm.effects.acted_parts import Stretches, acted_stretches, acting_tables
+from nmm.effects.acted.acted_ends import member_edge_parts
+from nmm.effects.acted.acted_parts import acted_edge_parts, acting_tables
 from nmm.effects.base import Setup
+from nmm.geometry.places import EdgeParts
 
 # Share of a joint up to which something that begins at its end reaches into it by rounding.
 REACHES = 1e-6
 
 
-Sides = tuple[Stretches, Stretches]
+Sides = tuple[EdgeParts, EdgeParts]
 """Joints (j,) as parts of an edge on either side."""
 
 
@@ -42,7 +43,7 @@ class ActedFaces:
         (2,) of the axes of the parts in those of the scene (m).
     """
 
-    parts: Stretches
+    parts: EdgeParts
     table: Ints
     names: tuple[str, ...]
     holds: Bools
@@ -55,13 +56,13 @@ class ActedFaces:
         What acts at a point on several bodies acts in equal shares, as the mean of their stress is.
         """
         found = [
-            (table.name, acted_stretches(setup, table), holds)
+            (table.name, acted_edge_parts(setup, table), holds)
             for table, holds in acting_tables(setup)
         ]
-        found += [(name, parts, False) for name, parts in member_stretches(setup)]
+        found += [(name, parts, False) for name, parts in member_edge_parts(setup)]
         pieces = [parts for _, parts, _ in found]
         counts = [len(one.edge) for one in pieces]
-        none = Stretches(np.zeros(0, dtype=np.int64), np.zeros((0, 2)), np.zeros((0, 2)))
+        none = EdgeParts(np.zeros(0, dtype=np.int64), np.zeros((0, 2)), np.zeros((0, 2)))
         edge, start, end = (
             np.concatenate([getattr(one, name) for one in (none, *pieces)])
             for name in ("edge", "start", "end")
@@ -70,7 +71,7 @@ class ActedFaces:
         number = np.repeat(np.arange(len(found)), counts)[order]
         names = tuple(name for name, _, _ in found)
         holds = np.array([holding for _, _, holding in found], dtype=bool)
-        parts = Stretches(edge[order], start[order], end[order])
+        parts = EdgeParts(edge[order], start[order], end[order])
         return cls(parts, number, names, holds, setup.origin)
 
     def beside(self, joints: Sides) -> tuple[Bools, Bools] | None:
@@ -88,21 +89,21 @@ class ActedFaces:
         found = np.flatnonzero(one & two & loaded)
         if not len(found):
             return ""
-        first = [Stretches(s.edge[found[:1]], s.start[found[:1]], s.end[found[:1]]) for s in joints]
+        first = [EdgeParts(s.edge[found[:1]], s.start[found[:1]], s.end[found[:1]]) for s in joints]
         tables = np.concatenate([self.table[self._pairs(side)[1]] for side in first])
         names = ", ".join(f'"{self.names[one]}"' for one in np.unique(tables))
         x, y = ((first[0].start + first[0].end) / 2)[0] + self.origin
         more = f" and {len(found) - 1} more" if len(found) > 1 else ""
         return f"{names} on both faces at ({x:.6g}, {y:.6g}){more}"
 
-    def _on(self, joints: Stretches, chosen: Bools | None = None) -> Bools:
+    def _on(self, joints: EdgeParts, chosen: Bools | None = None) -> Bools:
         """Return on which joints (j,), by the edge of one side, tables that are ``chosen`` act."""
         joint, part = self._pairs(joints)
         if chosen is not None:
             joint = joint[chosen[self.table[part]]]
         return np.bincount(joint, minlength=len(joints.edge)) > 0
 
-    def _pairs(self, joints: Stretches) -> tuple[Ints, Ints]:
+    def _pairs(self, joints: EdgeParts) -> tuple[Ints, Ints]:
         """Pairs (p,) of joints and parts of their edge that overlap."""
         parts = self.parts
         first = np.searchsorted(parts.edge, joints.edge, side="left")
@@ -121,15 +122,15 @@ class ActedFaces:
         return joint[meet], part[meet]
 
 
-def shared_stretches(model: Model, edge_a: Ints, edge_b: Ints) -> Sides:
-    """Return the stretches (j,) that pairs of edges share, as parts of either."""
+def shared_edge_parts(model: Model, edge_a: Ints, edge_b: Ints) -> Sides:
+    """Return the parts (j,) of edges that pairs of them share, on either side."""
     edges = model.manifold.boundary
     begin, way = edges.start[edge_a], edges.end[edge_a] - edges.start[edge_a]
     size = np.sum(way * way, axis=1)
     shares = [np.sum((at[edge_b] - begin) * way, axis=1) / size for at in (edges.start, edges.end)]
     low, high = np.clip([np.minimum(*shares), np.maximum(*shares)], 0.0, 1.0)[:, :, None]
     start, end = begin + low * way, begin + high * way
-    return Stretches(edge_a, start, end), Stretches(edge_b, start, end)
+    return EdgeParts(edge_a, start, end), EdgeParts(edge_b, start, end)
 
 
 def wet_faces(setup: Setup) -> str:

@@ -4,14 +4,14 @@ import numpy as np
 
 from integration.arrays import Bools
 from nmm.contact.points.contact_points import ContactPoints
-from nmm.effects.acted_faces import ActedFaces, shared_stretches, wet_faces
+from nmm.effects.acted.acted_faces import ActedFaces, shared_edge_parts, wet_faces
 from nmm.effects.base import Setup
 
 
 def acted_on(setup: Setup, joints: ContactPoints) -> tuple[Bools, Bools] | None:
     """Return on which faces (m,) beside joint points something acts; None where nothing does."""
-    stretches = shared_stretches(setup.model, joints.edge_a, joints.edge_b)
-    return ActedFaces.of(setup).beside(stretches)
+    sides = shared_edge_parts(setup.model, joints.edge_a, joints.edge_b)
+    return ActedFaces.of(setup).beside(sides)
 
 
 def loaded_twice(setup: Setup, joints: ContactPoints) -> str:
@@ -20,7 +20,7 @@ def loaded_twice(setup: Setup, joints: ContactPoints) -> str:
     if not len(tied):
         return ""
     edges = np.unique(np.stack([tied.edge_a, tied.edge_b]), axis=1)
-    found = ActedFaces.of(setup).twice(shared_stretches(setup.model, *edges))
+    found = ActedFaces.of(setup).twice(shared_edge_parts(setup.model, *edges))
     found = found or wet_faces(setup)
     if not found:
         return ""

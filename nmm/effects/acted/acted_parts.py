@@ -1,16 +1,16 @@
 """Parts of edges on which the tables of a scene act."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from covers.approximation.manifold import Manifold
 from covers.cutting.cut_boundary import CutBoundary
-from integration.arrays import Bools, Floats, Ints
+from integration.arrays import Bools, Floats
 from nmm.assembly.places import NEAR, along_segment
 from nmm.effects.base import Setup
+from nmm.geometry.places import EdgeParts
 
 if TYPE_CHECKING:
     from nmm.scene.actions import PlacedTable
@@ -18,23 +18,6 @@ if TYPE_CHECKING:
     from nmm.scene.tables.shaking.boundaries import FreeFieldTable, ViscousBoundaryTable
 
     OnFaces = PlacedTable | FoundationTable | FreeFieldTable | ViscousBoundaryTable
-
-
-@dataclass(frozen=True)
-class Stretches:
-    """Parts of edges.
-
-    Attributes
-    ----------
-    edge
-        (k,) of the boundary.
-    start, end
-        (k, 2) in the reference place (m).
-    """
-
-    edge: Ints
-    start: Floats
-    end: Floats
 
 
 def acting_tables(setup: Setup) -> "Iterator[tuple[OnFaces, bool]]":
@@ -50,13 +33,13 @@ def acting_tables(setup: Setup) -> "Iterator[tuple[OnFaces, bool]]":
             yield table, True
 
 
-def acted_stretches(setup: Setup, table: "OnFaces") -> Stretches:
+def acted_edge_parts(setup: Setup, table: "OnFaces") -> EdgeParts:
     """Return where a table acts: at its point, along its segment, or on all edges of a block."""
     manifold, regions = setup.model.manifold, setup.regions(table.block)
     if (point := getattr(table, "point", None)) is not None:
         return _at_point(manifold, np.array(point), regions)
     if table.segment is not None:
-        return Stretches(*along_segment(manifold, np.array(table.segment), regions))
+        return EdgeParts(*along_segment(manifold, np.array(table.segment), regions))
     boundary = manifold.boundary
     chosen = np.ones(len(boundary), dtype=bool)
     if regions is not None:
@@ -64,10 +47,10 @@ def acted_stretches(setup: Setup, table: "OnFaces") -> Stretches:
     if (crack := getattr(table, "crack", None)) is not None:
         chosen &= crack_faces(setup, crack)
     index = np.flatnonzero(chosen)
-    return Stretches(index, boundary.start[index], boundary.end[index])
+    return EdgeParts(index, boundary.start[index], boundary.end[index])
 
 
-def _at_point(manifold: Manifold, point: Floats, regions: Bools | None) -> Stretches:
+def _at_point(manifold: Manifold, point: Floats, regions: Bools | None) -> EdgeParts:
     """Return a point as parts without length of the edges of a single body that pass it."""
     edges, near = manifold.boundary, NEAR * manifold.elements.extent
     way = edges.end - edges.start
@@ -80,7 +63,7 @@ def _at_point(manifold: Manifold, point: Floats, regions: Bools | None) -> Stret
     if len(np.unique(manifold.element_body[edges.element[index]])) != 1:
         index = index[:0]
     there = np.tile(point, (len(index), 1))
-    return Stretches(index, there, there)
+    return EdgeParts(index, there, there)
 
 
 def crack_faces(setup: Setup, name: str) -> Bools:

@@ -1,0 +1,1 @@
+"""Faces and bonds on which a scene lets something act. What acts there is in other rooms."""
