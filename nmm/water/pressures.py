@@ -14,13 +14,14 @@ import numpy as np
 from integration.arrays import Floats, Ints
 from nmm.assembly.applied_forces import AppliedForces, joined
 from nmm.assembly.model import Model
-from nmm.assembly.places import Place, along_segment, on_parts
+from nmm.assembly.places import Place, on_parts
 from nmm.assembly.state import State
-from nmm.effects.acted.acted_parts import crack_faces
+from nmm.effects.acted.acted_parts import acted_edge_parts
 from nmm.effects.acting_place import traction_order
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 from nmm.effects.loading.load_factor import load_factor
 from nmm.errors import Fault, SceneError
+from nmm.geometry.places import EdgeParts
 from nmm.water.head import Pressure, pressure_of
 
 if TYPE_CHECKING:
@@ -143,7 +144,7 @@ class WaterPressures(Effect):
 
 def _water(setup: Setup, item: "WaterPressureTable") -> WaterOnEdges:
     manifold, pressure = setup.model.manifold, pressure_of(item, setup.origin)
-    edge, start, end = _divided(*_edges(setup, item), pressure)
+    edge, start, end = _divided(acted_edge_parts(setup, item), pressure)
     if not len(edge):
         where = setup.scene.source.of_name("water_pressures", item.name)
         found = str(item.segment or item.crack or item.block)
@@ -178,25 +179,9 @@ def _pressed(surfaces: "list[SurfacePressure]", n: int) -> "PressedSurfaces":
     return PressedSurfaces(tuple(surfaces), n)
 
 
-def _edges(setup: Setup, item: "WaterPressureTable") -> tuple[Ints, Floats, Floats]:
-    """Edges (k,) under pressure, and starts and ends (k, 2) of the parts of them."""
-    manifold, regions = setup.model.manifold, setup.regions(item.block)
-    if item.segment is not None:
-        return along_segment(manifold, np.array(item.segment), regions)
-    boundary = manifold.boundary
-    chosen = np.ones(len(boundary), dtype=bool)
-    if regions is not None:
-        chosen = np.asarray(regions[manifold.element_region[boundary.element]])
-    if item.crack is not None:
-        chosen &= crack_faces(setup, item.crack)
-    index = np.flatnonzero(chosen)
-    return index, boundary.start[index], boundary.end[index]
-
-
-def _divided(
-    edge: Ints, start: Floats, end: Floats, pressure: Pressure
-) -> tuple[Ints, Floats, Floats]:
+def _divided(parts: EdgeParts, pressure: Pressure) -> tuple[Ints, Floats, Floats]:
     """Divide parts of edges where the pressure has a kink."""
+    edge, start, end = parts.edge, parts.start, parts.end
     shares = [pressure.crossings(a, b) for a, b in zip(start, end, strict=True)]
     whole = np.repeat(np.arange(len(edge)), [len(one) - 1 for one in shares])
     low = np.concatenate([[], *(one[:-1] for one in shares)])

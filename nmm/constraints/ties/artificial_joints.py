@@ -22,7 +22,7 @@ from nmm.constraints.ties.shared_edges import corner_interface, gauss_interface,
 from nmm.constraints.ties.tied_interfaces import TiedInterfaces
 from nmm.constraints.turned_axes import turning
 from nmm.contact.detection.joints import Joints
-from nmm.effects.acted.acted_faces import ActedFaces, Sides, shared_edge_parts
+from nmm.effects.acted.acted_faces import ActedFaces, Sides, mean_taken, shared_edge_parts
 from nmm.effects.base import Setup
 from nmm.errors import FormulationError
 from nmm.geometry.tessellation.block_cover import PieceGlue
@@ -61,11 +61,8 @@ class ArtificialJoints(TiedInterfaces):
         """See `Effect.caution`: loads on both faces."""
         if not self.loaded_twice:
             return ""
-        return (
-            f"{self.loaded_twice} of sub-blocks that Nitsche's terms glue, which take the mean "
-            "stress of both sides for the traction: faces part by the loads on them over twice "
-            'the penalty; use glue = "springs" in [cover.options]'
-        )
+        remedy = 'glue = "springs" in [cover.options]'
+        return mean_taken(self.loaded_twice, "sub-blocks that Nitsche's terms glue", remedy)
 
     def follow(self, change: "Change") -> "ArtificialJoints":
         """Return those of the new model; a new block is glued free of stress where it lies.

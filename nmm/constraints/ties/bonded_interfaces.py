@@ -27,7 +27,12 @@ from nmm.constraints.ties.shared_edges import (
 from nmm.constraints.ties.tied_interfaces import TiedInterfaces
 from nmm.constraints.turned_axes import turning
 from nmm.contact.detection.joints import Joints
-from nmm.effects.acted.acted_faces import ActedFaces, shared_edge_parts, wet_faces
+from nmm.effects.acted.acted_faces import (
+    ActedFaces,
+    mean_taken,
+    shared_edge_parts,
+    wet_faces,
+)
 from nmm.effects.base import Setup
 from nmm.errors import FormulationError
 
@@ -96,11 +101,8 @@ class BondedInterfaces(TiedInterfaces):
         """See `Effect.caution`: loads on both faces, weights that are no polynomials on slivers."""
         told = []
         if self.loaded_twice:
-            told.append(
-                f"{self.loaded_twice} of glue by Nitsche's terms, which take the mean stress of "
-                "both sides for the traction: faces part by the loads on them over twice the "
-                'penalty; use [glue] method = "lagrange" or "spring"'
-            )
+            remedy = '[glue] method = "lagrange" or "spring"'
+            told.append(mean_taken(self.loaded_twice, "glue by Nitsche's terms", remedy))
         if self.least_cut < SLIVER:
             told.append(
                 f"Nitsche's glue on slivers of {self.least_cut:.1g} of the largest element, with "

@@ -4,7 +4,12 @@ import numpy as np
 
 from integration.arrays import Bools
 from nmm.contact.points.contact_points import ContactPoints
-from nmm.effects.acted.acted_faces import ActedFaces, shared_edge_parts, wet_faces
+from nmm.effects.acted.acted_faces import (
+    ActedFaces,
+    mean_taken,
+    shared_edge_parts,
+    wet_faces,
+)
 from nmm.effects.base import Setup
 
 
@@ -24,8 +29,6 @@ def loaded_twice(setup: Setup, joints: ContactPoints) -> str:
     found = found or wet_faces(setup)
     if not found:
         return ""
-    return (
-        f"{found} of bonds by Nitsche's terms, which take the mean stress of both sides for the "
-        "traction: faces part, and bonds fail early, by the loads on them over twice the penalty; "
-        'use [contact] bonds = "spring" with bond_stiffness = 100'
-    )
+    remedy = '[contact] bonds = "spring" with bond_stiffness = 100'
+    harm = "faces part, and bonds fail early,"
+    return mean_taken(found, "bonds by Nitsche's terms", remedy, harm)

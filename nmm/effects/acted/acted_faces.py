@@ -141,3 +141,11 @@ def wet_faces(setup: Setup) -> str:
     if not any(one.aperture is not None and one.normal_stiffness is None for one in bonds):
         return ""
     return "the water of [joint_flow] on both faces"
+
+
+def mean_taken(found: str, held: str, remedy: str, harm: str = "faces part") -> str:
+    """Tell that terms take the mean of both sides where loads are ``found`` on both faces."""
+    return (
+        f"{found} of {held}, which take the mean stress of both sides for the traction: {harm} by "
+        f"the loads on them over twice the penalty; use {remedy}"
+    )
